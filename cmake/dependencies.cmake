@@ -1,0 +1,28 @@
+# Every library that the project takes from the distribution; docs/dependencies.md says what each is for.
+find_package(glm REQUIRED)
+find_package(tl-expected REQUIRED)
+find_package(fmt REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(PNG REQUIRED)
+find_package(OpenEXR REQUIRED)
+find_package(glfw3 REQUIRED)
+find_package(Threads REQUIRED)
+
+# What the public headers include.
+add_library(burnish_public_deps INTERFACE)
+target_link_libraries(burnish_public_deps INTERFACE glm::glm tl::expected)
+
+# glad generates the OpenGL function table (one struct per context, nothing global) from the Khronos registry that its package carries.
+# Debian installs it for /usr/bin/python3 as python3-glad; another Python is tried after that.
+find_program(BURNISH_PYTHON NAMES python3 PATHS /usr/bin NO_DEFAULT_PATH)
+find_program(BURNISH_PYTHON NAMES python3 REQUIRED)
+set(glad_dir ${PROJECT_BINARY_DIR}/generated/glad)
+if(NOT EXISTS ${glad_dir}/include/glad/gl.h)
+  execute_process(COMMAND ${BURNISH_PYTHON} -m glad --quiet --out-path ${glad_dir} --reproducible
+                          --api gl:core=4.5 --extensions GL_KHR_debug,GL_ARB_shader_draw_parameters,GL_EXT_texture_filter_anisotropic,GL_ARB_texture_filter_anisotropic,GL_KHR_parallel_shader_compile
+                          c --mx --loader
+                  RESULT_VARIABLE glad_result ERROR_VARIABLE glad_error)
+  if(NOT glad_result EQUAL 0 OR NOT EXISTS ${glad_dir}/include/glad/gl.h)
+    message(FATAL_ERROR "glad (the OpenGL loader generator) failed with ${BURNISH_PYTHON}: ${glad_error}\nInstall it: apt-get install python3-glad")
+  endif()
+endif()

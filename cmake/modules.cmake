@@ -1,0 +1,15 @@
+# burnish_module(NAME LAYER n [SOURCES ...] [PUBLIC libs] [PRIVATE libs]): one folder of engine/ as an object library.
+# All sources of the folder belong to it. The layer is what tests/layering checks includes against.
+function(burnish_module name)
+  cmake_parse_arguments(M "" "LAYER" "SOURCES;LIBS" ${ARGN})
+  file(GLOB found CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
+  if(NOT found AND NOT M_SOURCES)
+    return()
+  endif()
+  add_library(burnish_${name} OBJECT ${found} ${M_SOURCES})
+  target_include_directories(burnish_${name} PUBLIC ${PROJECT_SOURCE_DIR}/engine ${PROJECT_SOURCE_DIR}/engine/include ${PROJECT_SOURCE_DIR}/shaders ${PROJECT_BINARY_DIR}/generated)
+  target_compile_definitions(burnish_${name} PRIVATE BURNISH_BUILDING)
+  target_link_libraries(burnish_${name} PUBLIC burnish_flags burnish_public_deps PRIVATE ${M_LIBS})
+  set_property(GLOBAL APPEND PROPERTY BURNISH_MODULES burnish_${name})
+  set_property(GLOBAL APPEND PROPERTY BURNISH_MODULE_LIBS ${M_LIBS})
+endfunction()

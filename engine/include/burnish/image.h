@@ -1,0 +1,65 @@
+// Pictures on the CPU: the container, the decoding interface and the two writers.
+#pragma once
+#include <burnish/result.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+
+namespace burnish {
+
+enum class PixelType : std::uint8_t { U8, U16, F16, F32 };
+[[nodiscard]] constexpr int bytesPerChannel(PixelType t) { return t == PixelType::U8 ? 1 : t == PixelType::F32 ? 4 : 2; }
+
+/// Interleaved pixels, rows from top to bottom, no padding. U8 and U16 are unsigned normalized.
+/// The container does not know its colour space: the user of the image does (PNG base colour: sRGB; HDR, EXR: linear Rec.709).
+struct Image {
+  int width = 0, height = 0;
+  int channels = 0;  ///< 1 to 4
+  PixelType type = PixelType::U8;
+  std::vector<std::byte> data;  ///< width * height * channels * bytesPerChannel(type) bytes
+
+  [[nodiscard]] bool empty() const { return data.empty(); }
+  [[nodiscard]] std::size_t pixelCount() const { return std::size_t(width) * std::size_t(height); }
+  [[nodiscard]] std::size_t byteSize() const { return pixelCount() * std::size_t(channels) * std::size_t(bytesPerChannel(type)); }
+  [[nodiscard]] const std::uint8_t* u8() const { return reinterpret_cast<const std::uint8_t*>(data.data()); }
+  [[nodiscard]] std::uint8_t* u8() { return reinterpret_cast<std::uint8_t*>(data.data()); }
+  [[nodiscard]] const float* f32() const { return reinterpret_cast<const float*>(data.data()); }
+  [[nodiscard]] float* f32() { return reinterpret_cast<float*>(data.data()); }
+};
+
+/// Allocates a zeroed image. width, height >= 0, channels 1..4.
+BURNISH_API Image makeImage(int width, int height, int channels, PixelType type);
+
+struct DecodeLimits {
+  int maxSide = 16384;                           ///< pixels
+  std::uint64_t maxBytes = 1024ull * 1024 * 1024;  ///< decoded size, checked from the header before decoding
+  double seconds = 20;                           ///< wall time for one picture
+};
+
+/// Turns a file's bytes into an Image. Accepts PNG, JPEG, Radiance HDR, OpenEXR by magic bytes, nothing else.
+/// 8-bit files give U8, 16-bit PNG gives U16, HDR and EXR give F32. Implementations are safe to call from one thread at a time.
+class BURNISH_API ImageDecoder {
+ public:
+  virtual ~ImageDecoder() = default;
+  /// `name` is used in errors only. Never throws; a damaged file is one clear Error.
+  virtual Result<Image> decode(std::span<const std::byte> file, std::string_view name, const DecodeLimits& limits = {}) = 0;
+};
+
+struct DecoderPoolOptions {
+  std::filesystem::path helper;  ///< the `burnish-decode` program; empty: beside the running program, then the install folder
+  int processes = 2;             ///< at most; started when first needed, reused, ended with the pool
+  std::uint64_t memoryBytes = 2048ull * 1024 * 1024;  ///< address-space limit of each helper beyond its start-up size
+};
+
+/// Decoding in helper processes with memory and time limits, so that a damaged picture costs one error and never the program.
+BURNISH_API std::unique_ptr<ImageDecoder> makeDecoderPool(DecoderPoolOptions options = {});
+
+/// Writes an 8-bit PNG (1 to 4 channels, sRGB) under a temporary name, then renames it: never a half-written file.
+BURNISH_API Result<void> writePng(const std::filesystem::path& file, const Image& image);
+/// Writes a half or float OpenEXR (1 to 4 channels, linear), the same way. `F16` and `F32` images only.
+BURNISH_API Result<void> writeExr(const std::filesystem::path& file, const Image& image);
+
+}  // namespace burnish

@@ -1,0 +1,79 @@
+// The frame plan: what one frame will do and why, as data. A pure function of scene, views, quality and capabilities; no GL context is needed to make, print or compare one.
+#pragma once
+#include <burnish/context.h>
+#include <burnish/quality.h>
+#include <burnish/scene.h>
+
+namespace burnish {
+
+/// Where the eye is and what part of the target it fills.
+struct View {
+  glm::dvec3 eye{0, 0, 0};
+  glm::dmat3 axes{1};       ///< columns: right, up, back, world space, orthonormal (the eye looks along -back)
+  bool orthographic = false;
+  float fovY = 0.8726646f;  ///< radians
+  float height = 2;         ///< metres (orthographic)
+  float near = 0.05f, far = 0;  ///< as Camera's
+  glm::ivec4 viewport{0};   ///< x, y (from the bottom), width, height in pixels; zero size: the whole target
+};
+/// eye, target and up in metres, world space. Degenerate input (eye = target, up parallel) gives a valid view that looks somewhere sensible.
+BURNISH_API View lookAt(glm::dvec3 eye, glm::dvec3 target, glm::dvec3 up = {0, 1, 0}, float fovY = 0.8726646f);
+BURNISH_API View viewOf(const Scene& scene, const Camera& camera);
+/// A view that shows the scene's bounds whole, from above the front right.
+BURNISH_API View framingView(const Scene& scene, float aspect);
+
+enum class Output : std::uint8_t {
+  Display,  ///< tone mapped, exposed, sRGB-encoded
+  Linear,   ///< linear radiance in cd/m², untouched by exposure, float
+};
+/// What is drawn in place of the final picture.
+enum class DebugView : std::uint8_t { Final, Albedo, Substance, Normal, Roughness, Depth, Position, Occlusion, Lights, Nonfinite };
+BURNISH_API std::span<const std::string_view> debugViewNames();  ///< in the order of the enum
+
+enum class CalledBy : std::uint8_t { Scene, Setting };
+struct EffectPlan {
+  std::string name;
+  bool on = false;
+  CalledBy calledBy = CalledBy::Scene;
+  std::string reason;  ///< why it is on, or what would call for it
+};
+struct PassPlan {
+  std::string name;
+  std::vector<std::string> reads, writes;  ///< names of targets and tables
+  std::vector<std::string> programs;       ///< names, each in FramePlan::programs
+};
+struct TargetPlan {
+  std::string name, format;  ///< format: GL's name without the prefix ("RGBA16F")
+  int width = 0, height = 0;
+  std::uint64_t bytes = 0;
+  friend bool operator==(const TargetPlan&, const TargetPlan&) = default;
+};
+/// One program: entry points and the definitions that are specialised into it.
+struct ProgramPlan {
+  std::string name;               ///< "gbuffer", "gbuffer+alpha", "lighting/tile4", ...
+  std::string vertex, fragment;   ///< shader files, "lighting/tile.frag"
+  std::vector<std::string> defines;  ///< "NAME value", sorted
+  friend bool operator==(const ProgramPlan&, const ProgramPlan&) = default;
+};
+
+struct FramePlan {
+  std::vector<EffectPlan> effects;
+  std::vector<PassPlan> passes;
+  std::vector<ProgramPlan> programs;
+  std::vector<TargetPlan> targets;
+  int gbufferBytesPerPixel = 0;  ///< colour targets, depth aside
+  [[nodiscard]] BURNISH_API bool on(std::string_view effect) const;
+  [[nodiscard]] BURNISH_API const PassPlan* pass(std::string_view name) const;
+  [[nodiscard]] BURNISH_API const TargetPlan* target(std::string_view name) const;
+};
+
+struct PlanOptions {
+  glm::ivec2 size{0};  ///< of the target, pixels
+  Output output = Output::Display;
+  DebugView debugView = DebugView::Final;
+  bool hostDepthIn = false, hostDepthOut = false, hostDraw = false;
+  bool countNonfinite = false;
+};
+BURNISH_API FramePlan makePlan(const Scene& scene, std::span<const View> views, const Quality& quality, const Capabilities& caps, const PlanOptions& options);
+
+}  // namespace burnish

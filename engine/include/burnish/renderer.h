@@ -1,0 +1,111 @@
+// The renderer: executes frame plans on one GL context. One object per context; several contexts, threads and renderers live side by side. No globals.
+#pragma once
+#include <burnish/plan.h>
+
+namespace burnish {
+
+/// What happens to the GL state of a host that owns the context.
+enum class HostState : std::uint8_t {
+  Save,      ///< every piece of state that the engine touches is put back (costs queries)
+  Declared,  ///< the state is left as docs/embedding.md declares: engine objects unbound, pixel store and fixed-function state at GL defaults
+  DontCare,  ///< nothing is promised
+};
+
+struct RendererOptions {
+  HostState hostState = HostState::DontCare;
+  std::uint64_t uploadBytesPerFrame = 0;     ///< 0: no limit; else meshes and textures arrive over several frames, nearest first
+  std::filesystem::path programCache;        ///< folder for program binaries; empty: none
+  std::filesystem::path shaderOverride;      ///< folder that is looked into before the embedded shaders; empty: none
+  bool debugOutput = false;                  ///< collect GL debug messages as errors (needs a debug context to be complete)
+  LogSink log;
+};
+
+/// Depth that the host brings or takes. Texture: 2D DEPTH_COMPONENT*, the target's size.
+struct HostDepth {
+  unsigned texture = 0;
+  float near = 0.1f, far = 1000;  ///< of the host's projection; far 0: infinite
+  bool reversed = false;          ///< 1 at the near plane
+};
+
+/// What the host's draw callback gets: bound framebuffer (light buffer + depth), matrices, pre-exposure. It may change any GL state that HostState::Save lists.
+struct HostDraw {
+  unsigned framebuffer = 0;
+  glm::mat4 viewProjection{1};  ///< camera-relative world space (world minus eye) to clip space, depth reversed in [0,1]
+  glm::dvec3 eye{0};
+  glm::ivec4 viewport{0};
+  float exposure = 1;           ///< multiply radiance in cd/m² by this before writing it
+};
+
+struct Target {
+  unsigned framebuffer = 0;  ///< drawn to; colour attachment 0 (8-bit for Output::Display: the engine encodes sRGB itself)
+  glm::ivec2 size{0};
+  std::optional<HostDepth> depthIn;   ///< occludes the engine's scene (Target must be written by the host first)
+  std::optional<HostDepth> depthOut;  ///< receives the engine's depth
+};
+
+enum class TimingMode : std::uint8_t { Off, Async, Profile };  ///< Profile finishes between passes: right on software renderers, slow on others
+
+struct PassTime {
+  std::string name;
+  double gpuMs = 0, cpuMs = 0;  ///< cpuMs: user + system time of the process between the pass's ends; only with Profile
+};
+struct FrameStats {
+  std::vector<PassTime> passes;  ///< of the latest frame whose queries have arrived (Async: some frames ago)
+  int draws = 0, lightsInView = 0, lights = 0;
+  std::uint64_t triangles = 0;
+  std::uint64_t uploadedBytes = 0, pendingUploads = 0;  ///< pending: resources still waiting for their turn
+  std::uint64_t textureBytes = 0;                       ///< all textures and targets alive
+  std::uint64_t nonfinitePixels = 0;                    ///< in the light buffer; only with RenderRequest::countNonfinite
+  std::vector<std::string> glErrors;                    ///< debug messages of type error and glGetError's
+  float exposureEv = 0;                                 ///< EV100 that the picture was developed with
+};
+
+struct RenderRequest {
+  Output output = Output::Display;
+  DebugView debugView = DebugView::Final;
+  TimingMode timing = TimingMode::Off;
+  bool countNonfinite = false;
+  std::function<void(const HostDraw&)> hostDraw;  ///< called after lighting, before tone mapping, once per view
+};
+
+class BURNISH_API Renderer {
+ public:
+  /// The context must be current on this thread, here and in every later call, and outlive the renderer.
+  static Result<std::unique_ptr<Renderer>> create(const ProcAddress& getProcAddress, const RendererOptions& options = {});
+  ~Renderer();
+  Renderer(const Renderer&) = delete;
+  Renderer& operator=(const Renderer&) = delete;
+
+  [[nodiscard]] const Capabilities& capabilities() const;
+  /// Compiles and links what the plan needs ahead of the first frame. Returns the number of programs built (not taken from memory).
+  Result<int> warmUp(const FramePlan& plan);
+  /// Draws the views into the target. Never partially: on error nothing was drawn to the target.
+  Result<FrameStats> render(const Scene& scene, std::span<const View> views, const Target& target, const Quality& quality, const RenderRequest& request = {});
+  /// The plan that the last render() executed.
+  [[nodiscard]] const FramePlan& lastPlan() const;
+  /// The instance that covers a pixel (x right, y up from the target's lower left corner); empty id where there is none.
+  Result<Id<Instance>> pick(const Scene& scene, const View& view, glm::ivec2 targetSize, glm::ivec2 pixel);
+  [[nodiscard]] const Report& report() const;  ///< warnings of uploads and light ranges so far
+
+ private:
+  Renderer();
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// An off-screen target: colour RGBA8 (Display) or RGBA32F (Linear). Owns a framebuffer in the current context.
+class BURNISH_API OffscreenTarget {
+ public:
+  static Result<std::unique_ptr<OffscreenTarget>> create(const ProcAddress& getProcAddress, glm::ivec2 size, Output output);
+  ~OffscreenTarget();
+  [[nodiscard]] Target target() const;
+  /// Reads the picture back, rows from top to bottom: U8 RGBA or F32 RGBA.
+  [[nodiscard]] Result<Image> read() const;
+
+ private:
+  OffscreenTarget();
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace burnish

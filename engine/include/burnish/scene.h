@@ -1,0 +1,234 @@
+// The scene: plain tables of meshes, textures, materials, nodes, instances, lights and cameras. Everything that a file brings can be built and changed here.
+// Units: metres, seconds, lux (directional lights), candela (point and spot lights), candela per square metre (emission, environment). Right-handed, Y up.
+// Ownership: the scene owns everything by value. A Scene may be read by several renderers at once; changing it while one renders it is the caller's to prevent.
+#pragma once
+#include <burnish/image.h>
+#include <burnish/material.h>
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace burnish {
+
+/// Names a row of a Table. Stale ids (of removed rows) are recognised by their generation.
+template <class T>
+struct Id {
+  std::uint32_t index = 0xffffffffu;
+  std::uint32_t generation = 0;
+  [[nodiscard]] explicit operator bool() const { return index != 0xffffffffu; }
+  friend bool operator==(Id, Id) = default;
+};
+
+/// A growing table with stable ids. Each row has a revision that `edit` advances: whoever mirrors the table (the GPU side) compares it to see what to upload.
+template <class T>
+class Table {
+ public:
+  Id<T> add(T value) {
+    ++revision_;
+    if (!free_.empty()) {
+      const std::uint32_t i = free_.back();
+      free_.pop_back();
+      rows_[i].value = std::move(value);
+      rows_[i].alive = true;
+      rows_[i].revision = revision_;
+      return {i, rows_[i].generation};
+    }
+    rows_.push_back({std::move(value), revision_, 0, true});
+    return {std::uint32_t(rows_.size() - 1), 0};
+  }
+  /// nullptr when the id is empty or stale.
+  [[nodiscard]] const T* get(Id<T> id) const { return has(id) ? &rows_[id.index].value : nullptr; }
+  /// For changing a row; advances its revision. nullptr when the id is empty or stale.
+  [[nodiscard]] T* edit(Id<T> id) {
+    if (!has(id)) return nullptr;
+    rows_[id.index].revision = ++revision_;
+    return &rows_[id.index].value;
+  }
+  /// Frees the row; false when the id is empty or stale.
+  bool remove(Id<T> id) {
+    if (!has(id)) return false;
+    rows_[id.index].value = T{};
+    rows_[id.index].alive = false;
+    ++rows_[id.index].generation;
+    rows_[id.index].revision = ++revision_;
+    free_.push_back(id.index);
+    return true;
+  }
+  [[nodiscard]] bool has(Id<T> id) const { return id.index < rows_.size() && rows_[id.index].alive && rows_[id.index].generation == id.generation; }
+  [[nodiscard]] std::size_t size() const { return rows_.size() - free_.size(); }
+  [[nodiscard]] std::size_t capacity() const { return rows_.size(); }  ///< one past the largest index in use
+  [[nodiscard]] std::uint64_t revision() const { return revision_; }   ///< advances with every change of the table
+  [[nodiscard]] std::uint64_t revision(Id<T> id) const { return has(id) ? rows_[id.index].revision : 0; }
+  /// The id of the row at an index, empty when the row is free.
+  [[nodiscard]] Id<T> at(std::uint32_t index) const { return index < rows_.size() && rows_[index].alive ? Id<T>{index, rows_[index].generation} : Id<T>{}; }
+  /// f(Id<T>, const T&) for each row in order of index.
+  template <class F>
+  void each(F&& f) const {
+    for (std::uint32_t i = 0; i < rows_.size(); ++i)
+      if (rows_[i].alive) f(Id<T>{i, rows_[i].generation}, rows_[i].value);
+  }
+
+ private:
+  struct Row {
+    T value;
+    std::uint64_t revision;
+    std::uint32_t generation;
+    bool alive;
+  };
+  std::vector<Row> rows_;
+  std::vector<std::uint32_t> free_;
+  std::uint64_t revision_ = 0;
+};
+
+struct Bounds {
+  glm::vec3 min{std::numeric_limits<float>::infinity()}, max{-std::numeric_limits<float>::infinity()};
+  [[nodiscard]] bool empty() const { return !(min.x <= max.x && min.y <= max.y && min.z <= max.z); }
+};
+
+/// One indexed triangle list with one material slot. Streams are empty or as long as `positions`.
+struct Mesh {
+  std::string name;
+  std::vector<glm::vec3> positions;  ///< metres, finite
+  std::vector<glm::vec3> normals;    ///< unit; empty: face normals are made when the mesh is validated
+  std::vector<glm::vec4> tangents;   ///< xyz unit, w = +1 or -1 (bitangent = w · n × t); empty: made on demand when a material has a normal map
+  std::vector<glm::vec2> uv0, uv1;
+  std::vector<glm::vec4> colors;  ///< linear, multiplies albedo and opacity
+  std::vector<std::uint32_t> indices;  ///< multiple of 3, each < positions.size()
+};
+
+/// Checks sizes and index ranges, replaces non-finite values, unit-normalises or makes normals, drops what cannot be drawn. Errors name the stream.
+BURNISH_API Result<Mesh> validated(Mesh mesh, Report& report);
+/// Fills `tangents` by the MikkTSpace rules (needs positions, normals, uv0); may split vertices.
+BURNISH_API void makeTangents(Mesh& mesh);
+BURNISH_API Bounds boundsOf(const Mesh& mesh);
+
+enum class Wrap : std::uint8_t { Repeat, ClampToEdge, MirroredRepeat };
+struct Sampler {
+  Wrap wrapU = Wrap::Repeat, wrapV = Wrap::Repeat;
+  bool magnifyLinear = true, minifyLinear = true, mipLinear = true, mips = true;
+  friend bool operator==(const Sampler&, const Sampler&) = default;
+};
+
+/// How the texels are to be read and their mip levels made (docs/shading.md, sections 1 and 3).
+enum class MapKind : std::uint8_t {
+  AlbedoSubstance,  ///< map A: RGB sRGB albedo, A substance code. Mips average F0 and diffuse and encode again.
+  NormalRoughness,  ///< map B: RGB tangent normal (0.5 + 0.5 n), A perceptual roughness. Mips widen roughness by the normals' spread.
+  Occlusion,        ///< map C: R baked ambient occlusion (linear), G opacity (linear)
+  Emissive,         ///< RGB sRGB
+  MetalRough,       ///< glTF metal-roughness kept apart: G roughness, B metalness (linear); only for materials whose maps cannot be merged
+};
+struct Texture {
+  std::string name;
+  MapKind kind = MapKind::AlbedoSubstance;
+  Sampler sampler;
+  Image image;  ///< U8; 4 channels for A and B, 1 or 2 for C, 3 or 4 for Emissive and MetalRough
+};
+
+/// u' = transform · (u, v, 1), applied to uv set `set` (0 or 1).
+struct UvMapping {
+  int set = 0;
+  glm::mat3x2 transform{1, 0, 0, 1, 0, 0};  ///< columns: u axis, v axis, offset
+  friend bool operator==(const UvMapping&, const UvMapping&) = default;
+};
+
+/// Where a material has no map, a 1x1 default stands in: white albedo and plastic for A, flat normal and roughness 1 for B, no occlusion, opaque.
+struct Material {
+  std::string name;
+  Id<Texture> mapA, mapB, mapC, emissiveMap, metalRoughMap;
+  UvMapping uvA, uvB, uvC, uvEmissive, uvMetalRough;
+  glm::vec3 albedo{1};          ///< multiplies map A's albedo, linear, 0..1
+  float substance = 1.0f / 3;   ///< code 0..1 where mapA is empty; with a map A its alpha decides
+  float roughness = 1;          ///< multiplies map B's roughness, 0..1
+  float occlusionStrength = 1;  ///< 0..1, as glTF's
+  glm::vec3 emission{0};        ///< cd/m², multiplies the emissive map
+  float opacity = 1;
+  float alphaCutoff = 0.5f;  ///< with alphaTest: fragments below are discarded
+  bool alphaTest = false;
+  bool twoSided = false;
+  bool unlit = false;  ///< KHR_materials_unlit: albedo is shown as emission of 1 cd/m² × `unlitScale`
+  bool useVertexColor = true;
+  float metalness = 0;  ///< factor for metalRoughMap only
+};
+
+/// A transform in the hierarchy.
+struct Node {
+  std::string name;
+  Id<Node> parent;
+  glm::dmat4 local{1};  ///< column vectors; any affine matrix, negative and singular ones included
+};
+struct Instance {
+  std::string name;
+  Id<Node> node;
+  Id<Mesh> mesh;
+  Id<Material> material;
+  bool visible = true;
+};
+
+enum class LightKind : std::uint8_t { Directional, Point, Spot };
+/// A punctual light; shines along its node's -Z (KHR_lights_punctual).
+struct Light {
+  std::string name;
+  LightKind kind = LightKind::Point;
+  Id<Node> node;
+  glm::vec3 color{1};     ///< linear Rec.709
+  float intensity = 1;    ///< lux (directional) or candela
+  float range = 0;        ///< metres; 0: none given, one follows from Quality::lightThreshold and the loss is reported
+  float innerCone = 0;    ///< radians from the axis, 0 <= inner <= outer
+  float outerCone = 0.7853982f;  ///< radians, at most pi/2
+  bool enabled = true;
+};
+
+struct Camera {
+  std::string name;
+  Id<Node> node;  ///< looks along -Z
+  bool orthographic = false;
+  float fovY = 0.8726646f;  ///< vertical, radians (perspective)
+  float height = 2;         ///< metres, full height of the view (orthographic)
+  float near = 0.05f;       ///< metres
+  float far = 0;            ///< metres; 0: infinite (perspective). Orthographic cameras need one.
+};
+
+/// The light of the surroundings, seen as background and reflected.
+struct Environment {
+  Image map;               ///< lat-long F32 RGB(A), cd/m² × scale; +Y up, centre column looks along -Z as glTF viewers do; empty: `color`
+  glm::vec3 color{0};      ///< cd/m², used without a map
+  float scale = 1;
+  bool background = true;  ///< draw it where nothing else is
+  std::uint64_t revision = 0;  ///< advance it when the map or colour changes
+};
+
+struct Scene {
+  std::string name;
+  Table<Mesh> meshes;
+  Table<Texture> textures;
+  Table<Material> materials;
+  Table<Node> nodes;
+  Table<Instance> instances;
+  Table<Light> lights;
+  Table<Camera> cameras;
+  Environment environment;
+
+  /// Product of the locals from the root down. Cycles are cut (the API cannot make one unless told to).
+  [[nodiscard]] BURNISH_API glm::dmat4 world(Id<Node> node) const;
+  /// Bounds of all visible instances in world space; empty without any.
+  [[nodiscard]] BURNISH_API Bounds bounds() const;
+};
+
+/// How a file becomes a scene.
+struct LoadOptions {
+  ImageDecoder* decoder = nullptr;  ///< not owned; nullptr: a pool of helper processes made for this call
+  bool allowOutside = false;        ///< read paths outside the file's folder (never remote ones)
+  std::uint64_t maxFileBytes = 2048ull * 1024 * 1024;
+  double seconds = 0;               ///< 0: no limit
+};
+/// Reads glTF 2.0 (.gltf, .glb). Conversions, clamps and everything that the file asks for and the engine lacks are in `report`.
+BURNISH_API Result<Scene> loadScene(const std::filesystem::path& file, const LoadOptions& options, Report& report);
+/// Reads a lat-long picture (HDR, EXR; PNG and JPEG as sRGB) into `environment.map`, finite and half-float safe.
+BURNISH_API Result<void> loadEnvironment(Scene& scene, const std::filesystem::path& file, const LoadOptions& options, Report& report);
+
+}  // namespace burnish
