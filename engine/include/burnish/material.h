@@ -33,7 +33,7 @@ struct DecodedSubstance {
 BURNISH_API DecodedSubstance decodeSubstance(float code, glm::vec3 albedo);
 /// Dielectric F0 (clamped into 0.0196..0.25) to code.
 BURNISH_API float encodeDielectric(float f0);
-/// Metalness m in (0,1] to code in (0.4, 1]; m = 0 gives plain plastic (F0 0.04), code 1/3.
+/// Metalness m in [0.01, 1] to code 0.4 + 0.6 m; under 0.01 plain plastic (F0 0.04), code 1/3, so that glTF's F0 errs by at most 0.0202.
 BURNISH_API float encodeMetalness(float m);
 /// ((eta-1)/(eta+1))^2
 [[nodiscard]] constexpr float f0FromIor(float eta) { return ((eta - 1) / (eta + 1)) * ((eta - 1) / (eta + 1)); }

@@ -1,0 +1,31 @@
+// sRGB (IEC 61966-2-1) in both directions, exact for 8 bits, by tables.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace burnish::material {
+
+/// 8-bit sRGB code to linear 0..1.
+const std::array<float, 256>& srgbToLinear();
+
+/// Linear 0..1 to the nearest 8-bit sRGB code. Values outside are clamped; NaN gives 0.
+class SrgbEncoder {
+ public:
+  SrgbEncoder();
+  [[nodiscard]] std::uint8_t operator()(float x) const {
+    if (!(x > 0)) return 0;
+    if (x >= 1) return 255;
+    const unsigned guess = guess_[unsigned(x * kBuckets)];
+    return std::uint8_t(guess + (x >= threshold_[guess]));
+  }
+
+ private:
+  // The code's steps are at least 1/(12.92 · 255) apart, more than one bucket: a bucket holds at most one threshold.
+  static constexpr unsigned kBuckets = 4096;
+  std::array<std::uint8_t, kBuckets> guess_;  ///< code at the bucket's lower end
+  std::array<float, 256> threshold_;          ///< least linear value of the next code
+};
+const SrgbEncoder& linearToSrgb();
+
+}  // namespace burnish::material

@@ -1,0 +1,155 @@
+// What a mesh must be before anything else sees it: sizes agree, indices are in range, every number is finite, normals are unit length.
+#include <burnish/scene.h>
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace burnish {
+namespace {
+
+bool finite(const glm::vec2& v) { return std::isfinite(v.x) && std::isfinite(v.y); }
+bool finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+bool finite(const glm::vec4& v) { return finite(glm::vec3(v)) && std::isfinite(v.w); }
+
+std::string placeOf(const Mesh& mesh) { return fmt::format("mesh \"{}\"", mesh.name); }
+
+Result<void> checkSizes(const Mesh& mesh) {
+  const std::size_t n = mesh.positions.size();
+  const std::pair<const char*, std::size_t> streams[] = {{"normals", mesh.normals.size()}, {"tangents", mesh.tangents.size()}, {"uv0", mesh.uv0.size()},
+                                                         {"uv1", mesh.uv1.size()},         {"colors", mesh.colors.size()}};
+  for (const auto& [name, size] : streams)
+    if (size != 0 && size != n)
+      return fail(placeOf(mesh), fmt::format("{} has {} elements, positions has {}", name, size, n), "leave the stream empty or give one element for each position");
+  if (n > 0xfffffffeu) return fail(placeOf(mesh), fmt::format("positions has {} elements", n), "split the mesh: indices are 32 bits");
+  if (mesh.indices.size() % 3 != 0)
+    return fail(placeOf(mesh), fmt::format("indices has {} elements, not a multiple of 3", mesh.indices.size()), "give a triangle list");
+  for (std::size_t i = 0; i < mesh.indices.size(); ++i)
+    if (mesh.indices[i] >= n)
+      return fail(placeOf(mesh), fmt::format("indices[{}] is {}, past the last of {} positions", i, mesh.indices[i], n), "correct the index");
+  return {};
+}
+
+/// The vector along a triangle's normal, its length twice the area; in double, so that huge and tiny triangles neither overflow nor vanish.
+glm::dvec3 areaNormal(const Mesh& mesh, const std::uint32_t* t) {
+  const glm::dvec3 a(mesh.positions[t[0]]), b(mesh.positions[t[1]]), c(mesh.positions[t[2]]);
+  return glm::cross(b - a, c - a);
+}
+
+/// Drops triangles with a non-finite corner or without area; puts the non-finite positions that are left over at the origin.
+void dropTriangles(Mesh& mesh, Report& report) {
+  std::size_t kept = 0, broken = 0, flat = 0;
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    const std::uint32_t* t = &mesh.indices[i];
+    if (!finite(mesh.positions[t[0]]) || !finite(mesh.positions[t[1]]) || !finite(mesh.positions[t[2]])) {
+      ++broken;
+    } else if (areaNormal(mesh, t) == glm::dvec3(0)) {
+      ++flat;
+    } else {
+      std::copy_n(t, 3, mesh.indices.begin() + std::ptrdiff_t(kept));
+      kept += 3;
+    }
+  }
+  mesh.indices.resize(kept);
+  if (broken) report.warn(placeOf(mesh), fmt::format("{} triangles with a non-finite position were dropped", broken));
+  if (flat) report.warn(placeOf(mesh), fmt::format("{} triangles without area were dropped", flat));
+  for (glm::vec3& p : mesh.positions)
+    if (!finite(p)) p = glm::vec3(0);
+}
+
+template <class V, class Good>
+void mendStream(std::vector<V>& stream, const V& substitute, const char* name, const Mesh& mesh, Report& report, Good&& good) {
+  std::size_t mended = 0;
+  for (V& v : stream)
+    if (!good(v)) {
+      v = substitute;
+      ++mended;
+    }
+  if (mended) report.warn(placeOf(mesh), fmt::format("{} values in {} that no surface can have (not finite, negative colours) were replaced", mended, name));
+}
+
+template <class V>
+void unweld(std::vector<V>& stream, const std::vector<std::uint32_t>& indices) {
+  if (stream.empty()) return;
+  std::vector<V> out(indices.size());
+  for (std::size_t i = 0; i < indices.size(); ++i) out[i] = stream[indices[i]];
+  stream = std::move(out);
+}
+
+/// Face normals: every corner becomes a vertex of its own (glTF 2.0, section 3.7.2.1: without normals, flat ones are calculated).
+void makeFlatNormals(Mesh& mesh) {
+  unweld(mesh.positions, mesh.indices);
+  unweld(mesh.uv0, mesh.indices);
+  unweld(mesh.uv1, mesh.indices);
+  unweld(mesh.colors, mesh.indices);
+  mesh.tangents.clear();  // they belong to normals that the file does not have
+  mesh.normals.resize(mesh.positions.size());
+  for (std::uint32_t i = 0; i < mesh.indices.size(); ++i) mesh.indices[i] = i;
+  for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+    const glm::vec3 n(glm::normalize(areaNormal(mesh, &mesh.indices[i])));
+    mesh.normals[i] = mesh.normals[i + 1] = mesh.normals[i + 2] = n;
+  }
+}
+
+/// Unit length; zero and non-finite ones become the geometric normal, the area-weighted mean of the triangles around the vertex.
+void mendNormals(Mesh& mesh, Report& report) {
+  std::vector<glm::dvec3> geometric;
+  std::size_t mended = 0;
+  for (std::size_t i = 0; i < mesh.normals.size(); ++i) {
+    glm::vec3& n = mesh.normals[i];
+    const double length = glm::length(glm::dvec3(n));
+    if (std::isfinite(length) && length > 1e-12) {
+      if (std::abs(length - 1) > 1e-6) n = glm::vec3(glm::dvec3(n) / length);
+      continue;
+    }
+    if (geometric.empty()) {
+      geometric.assign(mesh.positions.size(), glm::dvec3(0));
+      for (std::size_t t = 0; t < mesh.indices.size(); t += 3)
+        for (int k = 0; k < 3; ++k) geometric[mesh.indices[t + k]] += areaNormal(mesh, &mesh.indices[t]);
+    }
+    const double around = glm::length(geometric[i]);
+    n = around > 0 ? glm::vec3(geometric[i] / around) : glm::vec3(0, 1, 0);
+    ++mended;
+  }
+  if (mended) report.warn(placeOf(mesh), fmt::format("{} zero or non-finite normals were replaced by geometric ones", mended));
+}
+
+/// Any unit vector at right angles to n (Duff et al. 2017, "Building an Orthonormal Basis, Revisited").
+glm::vec3 perpendicular(const glm::vec3& n) {
+  const float sign = std::copysign(1.0f, n.z), a = -1 / (sign + n.z);
+  return {1 + sign * n.x * n.x * a, sign * n.x * n.y * a, -sign * n.x};
+}
+
+void mendTangents(Mesh& mesh, Report& report) {
+  std::size_t mended = 0;
+  for (std::size_t i = 0; i < mesh.tangents.size(); ++i) {
+    glm::vec4& t = mesh.tangents[i];
+    const double length = glm::length(glm::dvec3(t));
+    if (!std::isfinite(length) || length < 1e-12 || !std::isfinite(t.w)) {
+      t = glm::vec4(perpendicular(mesh.normals[i]), 1);
+      ++mended;
+    } else if (std::abs(length - 1) > 1e-6) {
+      t = glm::vec4(glm::vec3(glm::dvec3(t) / length), t.w);
+    }
+    t.w = t.w < 0 ? -1.0f : 1.0f;
+  }
+  if (mended) report.warn(placeOf(mesh), fmt::format("{} zero or non-finite tangents were replaced by ones that follow no texture", mended));
+}
+
+}  // namespace
+
+Result<Mesh> validated(Mesh mesh, Report& report) {
+  if (auto sizes = checkSizes(mesh); !sizes) return fail(sizes.error());
+  dropTriangles(mesh, report);
+  const auto finiteUv = [](const glm::vec2& uv) { return finite(uv); };
+  mendStream(mesh.uv0, glm::vec2(0), "uv0", mesh, report, finiteUv);
+  mendStream(mesh.uv1, glm::vec2(0), "uv1", mesh, report, finiteUv);
+  mendStream(mesh.colors, glm::vec4(1), "colors", mesh, report, [](const glm::vec4& c) { return finite(c) && c.x >= 0 && c.y >= 0 && c.z >= 0 && c.w >= 0; });
+  if (mesh.normals.empty())
+    makeFlatNormals(mesh);
+  else
+    mendNormals(mesh, report);
+  mendTangents(mesh, report);
+  return mesh;
+}
+
+}  // namespace burnish
