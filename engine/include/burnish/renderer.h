@@ -11,11 +11,19 @@ enum class HostState : std::uint8_t {
   DontCare,  ///< nothing is promised
 };
 
+/// How light culling learns the depth range of each tile. Both give the same lists.
+enum class TileBounds : std::uint8_t {
+  Automatic,  ///< Readback on software renderers, Reduction elsewhere
+  Readback,   ///< the depth buffer is read back and reduced on the CPU
+  Reduction,  ///< a pass reduces it; one texel a tile is read back
+};
+
 struct RendererOptions {
   HostState hostState = HostState::DontCare;
   std::uint64_t uploadBytesPerFrame = 0;     ///< 0: no limit; else meshes and textures arrive over several frames, nearest first
   std::filesystem::path programCache;        ///< folder for program binaries; empty: none
   std::filesystem::path shaderOverride;      ///< folder that is looked into before the embedded shaders; empty: none
+  TileBounds tileBounds = TileBounds::Automatic;
   bool debugOutput = false;                  ///< collect GL debug messages as errors (needs a debug context to be complete)
   LogSink log;
 };
@@ -85,6 +93,8 @@ class BURNISH_API Renderer {
   [[nodiscard]] const FramePlan& lastPlan() const;
   /// The instance that covers a pixel (x right, y up from the target's lower left corner); empty id where there is none.
   Result<Id<Instance>> pick(const Scene& scene, const View& view, glm::ivec2 targetSize, glm::ivec2 pixel);
+  /// Frees what the renderer holds for a scene (its uploads live until this, or until the renderer goes).
+  void release(const Scene& scene);
   [[nodiscard]] const Report& report() const;  ///< warnings of uploads and light ranges so far
 
  private:

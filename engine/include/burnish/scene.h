@@ -202,7 +202,25 @@ struct Environment {
   std::uint64_t revision = 0;  ///< advance it when the map or colour changes
 };
 
+/// Tells scenes apart, so that a renderer never takes one scene's tables for another's. Copies get an identity of their own; moving keeps it.
+class BURNISH_API Identity {
+ public:
+  Identity();
+  Identity(const Identity&) : Identity() {}
+  Identity(Identity&& o) noexcept : value_(o.value_) { o.value_ = 0; }
+  Identity& operator=(const Identity& o) { return *this = this == &o ? Identity(std::move(*this)) : Identity(); }
+  Identity& operator=(Identity&& o) noexcept {
+    std::swap(value_, o.value_);
+    return *this;
+  }
+  [[nodiscard]] std::uint64_t value() const { return value_; }
+
+ private:
+  std::uint64_t value_;
+};
+
 struct Scene {
+  Identity identity;
   std::string name;
   Table<Mesh> meshes;
   Table<Texture> textures;

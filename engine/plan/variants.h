@@ -1,0 +1,28 @@
+// Which variant of the geometry programs an instance needs: data, shared by the plan (which lists them) and the passes (which use them).
+#pragma once
+#include <burnish/plan.h>
+
+namespace burnish::plan {
+
+struct GeometryVariant {
+  bool general = false;    ///< second uv set, uv transforms, vertex colour or metal-rough kept apart
+  bool alphaTest = false;
+  bool occlusionMap = false;
+  friend auto operator<=>(const GeometryVariant&, const GeometryVariant&) = default;
+};
+GeometryVariant variantOf(const Material& material, const Mesh& mesh);
+/// Emission of any kind, unlit included.
+bool emits(const Material& material);
+
+/// The passes that draw geometry.
+enum class GeometryPass : std::uint8_t { GBuffer, Emissive, Pick };
+/// occlusionTarget: the frame has a third target.
+ProgramPlan geometryProgram(GeometryPass pass, GeometryVariant variant, bool occlusionTarget);
+
+/// Sizes of the unrolled lighting programs: a tile's list is padded to the next one; longer lists are looped over.
+inline constexpr int kTileBuckets[] = {0, 1, 2, 3, 4, 6, 8, 10, 12, 14};
+inline constexpr int kLoop = -1;  ///< the program that loops: long lists and spots
+/// `directional` lights, `environment`: the surroundings light the scene.
+ProgramPlan lightingProgram(int bucket, const Quality& quality, int directional, bool environment, bool occlusion, bool orthographic);
+
+}  // namespace burnish::plan

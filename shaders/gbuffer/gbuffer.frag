@@ -1,0 +1,74 @@
+// Fills the G-buffer: RT0 albedo (sRGB) + substance code, RT1 octahedral normal 2x12 + log-alpha code, RT2 baked ambient occlusion.
+// Definitions: GENERAL, ALPHA_TEST, OCCLUSION (0 no third target, 1 from map C, 2 none on this material).
+#include "shading/bridge.h"
+#include "shading/constants.h"
+#include "shading/roughness.h"
+#include "shading/normals.h"
+#include "interface/layout.h"
+#include "gbuffer/material.glsl"
+
+layout(binding = UNIT_MAP_A) uniform sampler2D mapA;
+layout(binding = UNIT_MAP_B) uniform sampler2D mapB;
+#if OCCLUSION == 1 || ALPHA_TEST
+layout(binding = UNIT_MAP_C) uniform sampler2D mapC;
+#endif
+#if GENERAL
+layout(binding = UNIT_METAL_ROUGH) uniform sampler2D mapMetalRough;
+#endif
+
+layout(location = 0) out vec4 outAlbedoSubstance;
+layout(location = 1) out vec4 outNormalRoughness;
+#if OCCLUSION
+layout(location = 2) out float outOcclusion;
+#endif
+
+// The normal map's direction in camera-relative world space. Zero or non-finite normals and tangents fall back to what is left of the frame.
+vec3 shadingNormal(vec3 mapped) {
+  float facing = gl_FrontFacing ? 1.0 : -1.0;
+  vec3 n = worldNormal * (facing * inversesqrt(max(dot(worldNormal, worldNormal), 1e-30)));
+  vec3 t = worldTangent.xyz - n * dot(n, worldTangent.xyz);
+  float t2 = dot(t, t);
+  if (!(t2 > 1e-24)) return n;
+  t *= inversesqrt(t2);
+  vec3 b = cross(n, t) * (worldTangent.w * facing);
+  vec3 m = t * mapped.x + b * mapped.y + n * mapped.z;
+  float m2 = dot(m, m);
+  return m2 > 1e-12 ? m * inversesqrt(m2) : n;
+}
+
+void main() {
+  vec4 a = texture(mapA, mapUv(0));
+  vec4 b = texture(mapB, mapUv(1));
+  vec3 albedo = a.rgb * material.albedo.rgb;
+  float code = a.a * material.params.x + material.params.y;
+  float roughness = b.a * material.params.z;
+#if GENERAL
+  if (material.more.z > 0.5) albedo *= vertexColor.rgb;
+  if (material.more.w > 0.5) {
+    vec4 mr = texture(mapMetalRough, mapUv(3));
+    float m = mr.b * material.more.x;
+    code = m > 0.0 ? 0.4 + 0.6 * m : 1.0 / 3.0;
+    roughness = mr.g * material.params.z;
+  }
+#endif
+#if OCCLUSION == 1 || ALPHA_TEST
+  vec2 c = texture(mapC, mapUv(2)).rg;
+#endif
+#if ALPHA_TEST
+  float opacity = c.g * material.albedo.a;
+#if GENERAL
+  if (material.more.z > 0.5) opacity *= vertexColor.a;
+#endif
+  if (opacity < material.emission.w) discard;
+#endif
+  // 128 is zero: 8-bit normal maps hold flat as (128, 128, 255).
+  vec3 mapped = b.rgb * (255.0 / 127.0) - vec3(128.0 / 127.0);
+  float r = clamp(roughness, BURNISH_ROUGHNESS_MIN, 1.0);
+  outAlbedoSubstance = vec4(clamp(albedo, vec3(0.0), vec3(1.0)), code);
+  outNormalRoughness = vec4(packNormal(shadingNormal(mapped)), encodeAlpha(alphaFromRoughness(r)));
+#if OCCLUSION == 1
+  outOcclusion = 1.0 + material.params.w * (c.r - 1.0);
+#elif OCCLUSION == 2
+  outOcclusion = 1.0;
+#endif
+}

@@ -1,0 +1,36 @@
+// Geometry into the G-buffer, the emissive pass and the pick pass: object space to camera-relative world.
+// Definitions: GENERAL 1 = second uv set, uv transforms, vertex colour.
+#include "interface/layout.h"
+
+layout(std140, binding = BINDING_FRAME) uniform Frame { FrameData frame; };
+layout(std140, binding = BINDING_DRAW) uniform Draw { DrawData draw; };
+
+layout(location = ATTRIBUTE_POSITION) in vec3 position;
+layout(location = ATTRIBUTE_NORMAL) in vec4 normal;
+layout(location = ATTRIBUTE_TANGENT) in vec4 tangent;
+layout(location = ATTRIBUTE_UV0) in vec2 uv0;
+
+layout(location = 0) out vec3 worldNormal;
+layout(location = 1) out vec4 worldTangent;
+layout(location = 2) out vec2 textureUv0;
+#if GENERAL
+layout(location = ATTRIBUTE_UV1) in vec2 uv1;
+layout(location = ATTRIBUTE_COLOR) in vec4 color;
+layout(location = 3) out vec2 textureUv1;
+layout(location = 4) out vec4 vertexColor;
+#endif
+
+invariant gl_Position;
+
+void main() {
+  vec4 p = vec4(position, 1.0);
+  vec3 relative = vec3(dot(draw.model[0], p), dot(draw.model[1], p), dot(draw.model[2], p));
+  gl_Position = frame.viewProjection * vec4(relative, 1.0);
+  worldNormal = vec3(dot(draw.normal[0].xyz, normal.xyz), dot(draw.normal[1].xyz, normal.xyz), dot(draw.normal[2].xyz, normal.xyz));
+  worldTangent = vec4(dot(draw.model[0].xyz, tangent.xyz), dot(draw.model[1].xyz, tangent.xyz), dot(draw.model[2].xyz, tangent.xyz), tangent.w);
+  textureUv0 = uv0;
+#if GENERAL
+  textureUv1 = uv1;
+  vertexColor = color;
+#endif
+}

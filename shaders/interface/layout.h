@@ -1,0 +1,68 @@
+// Structs and binding points that C++ and GLSL share. Only vec4, mat4, ivec4 members: std140, std430 and C++ then agree; gpu_scene asserts the offsets.
+#ifndef BURNISH_INTERFACE_LAYOUT
+#define BURNISH_INTERFACE_LAYOUT
+
+// Uniform blocks
+#define BINDING_FRAME 0
+#define BINDING_DRAW 1
+#define BINDING_MATERIAL 2
+
+// Texture units
+#define UNIT_MAP_A 0
+#define UNIT_MAP_B 1
+#define UNIT_MAP_C 2
+#define UNIT_METAL_ROUGH 3
+#define UNIT_EMISSIVE 4
+#define UNIT_GBUFFER_A 0
+#define UNIT_GBUFFER_B 1
+#define UNIT_DEPTH 2
+#define UNIT_GBUFFER_C 3
+#define UNIT_ENVIRONMENT 4
+#define UNIT_DFG 5
+#define UNIT_LIGHTS 6
+#define UNIT_LIGHT_LISTS 7
+#define UNIT_LIGHT_BUFFER 8
+#define UNIT_EXPOSURE 9
+
+// Vertex attributes
+#define ATTRIBUTE_POSITION 0
+#define ATTRIBUTE_NORMAL 1
+#define ATTRIBUTE_TANGENT 2
+#define ATTRIBUTE_UV0 3
+#define ATTRIBUTE_UV1 4
+#define ATTRIBUTE_COLOR 5
+
+#define MAX_DIRECTIONAL 8
+#define LIGHT_TEXELS 4
+#define TILE_SIZE 16
+
+struct FrameData {
+  mat4 viewProjection;   // camera-relative world to clip, depth reversed in [0,1]
+  vec4 rayOrigin;        // perspective: direction through pixel (0,0), scaled so that its depth is 1; orthographic: origin on the eye's plane. xyz camera-relative world
+  vec4 rayX;             // added per pixel to the right
+  vec4 rayY;             // added per pixel upward
+  vec4 forward;          // xyz unit; orthographic positions are origin + forward * w
+  vec4 depthParams;      // perspective: w = x / (z + y); orthographic: w = x - z * y
+  vec4 exposure;         // x pre-exposure (what the light buffer holds is radiance times this), y its inverse, z fixed display exposure, w light buffer's limit
+  vec4 eye;              // xyz world position of the eye (m), for debug views only
+  vec4 environment;      // x last level of the prefiltered cube
+  vec4 background;       // rgb pre-exposed background colour; w scale of the environment cube
+  ivec4 viewport;        // x, y, width, height in pixels
+  vec4 irradiance[9];    // pre-exposed irradiance/pi of the surroundings, SH L2 with all constants folded in (shading/environment.h)
+  vec4 directional[2 * MAX_DIRECTIONAL];  // xyz unit direction to the light; rgb pre-exposed lux
+};
+
+struct DrawData {
+  vec4 model[3];    // rows: object to camera-relative world
+  vec4 normal[3];   // rows of the cofactor matrix times the sign of the determinant; xyz
+  ivec4 ids;        // x instance index + 1
+};
+
+struct MaterialData {
+  vec4 albedo;      // rgb factor, a opacity
+  vec4 params;      // x code scale, y code bias, z roughness factor, w occlusion strength
+  vec4 emission;    // rgb pre-exposure not applied, cd/m²; w alpha cutoff
+  vec4 more;        // x metalness factor (metal-rough kept apart), y 1 when unlit, z 1 when vertex colour counts, w 1 when metal-rough is kept apart
+  vec4 uv[10];      // two rows for each of A, B, C, metal-rough, emissive: u' = dot(row.xyz, (u, v, 1)); row.w of the first: uv set
+};
+#endif

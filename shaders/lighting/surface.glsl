@@ -1,0 +1,23 @@
+// From the G-buffer to a Surface: position, view vector and material at the current fragment.
+// Definitions: ORTHOGRAPHIC, OCCLUSION.
+layout(std140, binding = BINDING_FRAME) uniform Frame { FrameData frame; };
+layout(binding = UNIT_GBUFFER_A) uniform sampler2D gbufferA;
+layout(binding = UNIT_GBUFFER_B) uniform sampler2D gbufferB;
+layout(binding = UNIT_DEPTH) uniform sampler2D gbufferDepth;
+#if OCCLUSION
+layout(binding = UNIT_GBUFFER_C) uniform sampler2D gbufferC;
+#endif
+
+// Camera-relative world position (m) of a fragment whose depth is z.
+vec3 positionAt(vec2 pixel, float z, out vec3 toEye) {
+  vec3 ray = frame.rayOrigin.xyz + frame.rayX.xyz * pixel.x + frame.rayY.xyz * pixel.y;
+#if ORTHOGRAPHIC
+  toEye = -frame.forward.xyz;
+  return ray + frame.forward.xyz * (frame.depthParams.x - z * frame.depthParams.y);
+#else
+  toEye = ray * -inversesqrt(dot(ray, ray));
+  return ray * (frame.depthParams.x / (z + frame.depthParams.y));
+#endif
+}
+
+Surface surfaceAt(vec4 a, vec4 b, vec3 toEye) { return makeSurface(unpackNormal(b.rgb), toEye, a.rgb, a.a, decodeAlpha(b.a)); }

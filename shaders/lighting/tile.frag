@@ -1,0 +1,91 @@
+// Shades the tiles: directional lights, the tile's point and spot lights, and the surroundings. Writes pre-exposed radiance.
+// Definitions: TILE_LIGHTS, DIRECTIONAL (count), ENVIRONMENT (0 none, 1 lit by cube and SH), OCCLUSION, ORTHOGRAPHIC, RUNG_GEOMETRY, RUNG_LOBE.
+#include "shading/bridge.h"
+#include "shading/constants.h"
+#include "shading/roughness.h"
+#include "shading/normals.h"
+#include "shading/substance.h"
+#include "shading/fresnel.h"
+#include "shading/lobe.h"
+#include "shading/distribution.h"
+#include "shading/geometry.h"
+#include "shading/light.h"
+#include "shading/surface.h"
+#include "shading/default_path.h"
+#include "shading/environment.h"
+#include "interface/layout.h"
+#include "lighting/surface.glsl"
+
+#if ENVIRONMENT
+layout(binding = UNIT_ENVIRONMENT) uniform samplerCube environmentCube;
+layout(binding = UNIT_DFG) uniform sampler2D dfgTable;
+#endif
+#if TILE_LIGHTS > 0
+layout(location = 0) flat in vec4 lightData[2 * TILE_LIGHTS];
+#elif TILE_LIGHTS < 0
+layout(location = 0) flat in ivec2 lightRange;
+layout(binding = UNIT_LIGHTS) uniform samplerBuffer lights;
+layout(binding = UNIT_LIGHT_LISTS) uniform usamplerBuffer lightLists;
+#endif
+
+layout(location = 0) out vec4 outRadiance;
+
+// Punctual light: position + 1/range^4, pre-exposed candela + bias (shading/light.h).
+vec3 punctual(Surface m, vec3 p, vec4 place, vec4 color) {
+  vec3 l = place.xyz - p;
+  float d2 = max(dot(l, l), BURNISH_GUARD_DISTANCE2);
+  float e = distanceAttenuation(d2, place.w, color.w);
+  return shadeDirection(m, l * inversesqrt(d2), RUNG_GEOMETRY, RUNG_LOBE) * color.rgb * e;
+}
+
+#if ENVIRONMENT
+vec3 surroundings(Surface m, float occlusion) {
+  float nov = clamp(m.nov, BURNISH_GUARD_NOV, 1.0);
+  float roughness = sqrt(m.alpha);
+  vec3 r = m.n * (2.0 * m.nov) - m.v;
+  vec2 dfg = texture(dfgTable, vec2(nov, roughness)).rg;
+  vec3 reflectance = m.f0 * dfg.x + vec3(dfg.y);
+  vec3 specular = textureLod(environmentCube, r, environmentLevel(roughness, frame.environment.x)).rgb * frame.background.w;
+  vec3 diffuse = max(irradianceSh(m.n, frame.irradiance[0].rgb, frame.irradiance[1].rgb, frame.irradiance[2].rgb, frame.irradiance[3].rgb, frame.irradiance[4].rgb,
+                                  frame.irradiance[5].rgb, frame.irradiance[6].rgb, frame.irradiance[7].rgb, frame.irradiance[8].rgb), vec3(0.0));
+#if OCCLUSION
+  specular *= specularOcclusion(nov, occlusion, m.alpha);
+  diffuse *= occlusion;
+#endif
+  return specular * reflectance + diffuse * m.diffuse * (vec3(1.0) - reflectance);
+}
+#endif
+
+void main() {
+  ivec2 q = ivec2(gl_FragCoord.xy);
+  vec4 a = texelFetch(gbufferA, q, 0);
+  vec4 b = texelFetch(gbufferB, q, 0);
+  float z = texelFetch(gbufferDepth, q, 0).r;
+  vec3 toEye;
+  vec3 p = positionAt(gl_FragCoord.xy - vec2(frame.viewport.xy), max(z, 1e-30), toEye);
+  Surface m = surfaceAt(a, b, toEye);
+  vec3 sum = vec3(0.0);
+  for (int i = 0; i < DIRECTIONAL; ++i)
+    sum += shadeDirection(m, frame.directional[2 * i].xyz, RUNG_GEOMETRY, RUNG_LOBE) * frame.directional[2 * i + 1].rgb;
+#if TILE_LIGHTS > 0
+  for (int i = 0; i < TILE_LIGHTS; ++i) sum += punctual(m, p, lightData[2 * i], lightData[2 * i + 1]);
+#elif TILE_LIGHTS < 0
+  for (int i = 0; i < lightRange.y; ++i) {
+    int light = int(texelFetch(lightLists, lightRange.x + i).x) * LIGHT_TEXELS;
+    vec4 place = texelFetch(lights, light);
+    vec4 axis = texelFetch(lights, light + 2);
+    vec3 toPoint = normalize(p - place.xyz + vec3(1e-20));
+    float spot = spotAttenuation(dot(axis.xyz, toPoint), axis.w, texelFetch(lights, light + 3).x);
+    sum += punctual(m, p, place, texelFetch(lights, light + 1)) * spot;
+  }
+#endif
+#if ENVIRONMENT
+#if OCCLUSION
+  float occlusion = texelFetch(gbufferC, q, 0).r;
+#else
+  float occlusion = 1.0;
+#endif
+  sum += surroundings(m, occlusion);
+#endif
+  outRadiance = vec4(min(sum, vec3(frame.exposure.w)), 1.0);
+}

@@ -1,0 +1,2 @@
+// One triangle that covers the viewport, at depth 0 (the far plane of reversed depth).
+void main() { gl_Position = vec4(vec2((gl_VertexID << 1) & 2, gl_VertexID & 2) * 2.0 - 1.0, 0.0, 1.0); }

@@ -1,0 +1,33 @@
+// Develops the light buffer: exposure, tone curve, sRGB. Definitions: TONEMAP (0 none, 1 Neutral, 2 AgX, 3 ACES), AUTO_EXPOSURE, LINEAR (1: radiance as it is, in cd/m²).
+#include "shading/bridge.h"
+#include "shading/tonemap.h"
+#include "interface/layout.h"
+layout(std140, binding = BINDING_FRAME) uniform Frame { FrameData frame; };
+layout(binding = UNIT_LIGHT_BUFFER) uniform sampler2D lightBuffer;
+#if AUTO_EXPOSURE
+layout(binding = UNIT_EXPOSURE) uniform sampler2D exposureValue;
+#endif
+layout(location = 0) out vec4 outColor;
+
+void main() {
+  vec3 c = texelFetch(lightBuffer, ivec2(gl_FragCoord.xy), 0).rgb;
+#if LINEAR
+  outColor = vec4(c * frame.exposure.y, 1.0);
+#else
+#if AUTO_EXPOSURE
+  c *= texelFetch(exposureValue, ivec2(0), 0).r;
+#else
+  c *= frame.exposure.z;
+#endif
+#if TONEMAP == 1
+  c = tonemapNeutral(c);
+#elif TONEMAP == 2
+  c = tonemapAgx(c);
+#elif TONEMAP == 3
+  c = tonemapAces(c);
+#else
+  c = tonemapNone(c);
+#endif
+  outColor = vec4(srgbFromLinear(c.r), srgbFromLinear(c.g), srgbFromLinear(c.b), 1.0);
+#endif
+}

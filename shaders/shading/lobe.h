@@ -1,0 +1,28 @@
+// Evaluation of (n·h)^p, 0 <= p <= 1.25e7, for unit n, l, v.
+
+// Through n·h itself, from sum = n·l + n·v and inverse = 1/|l + v|²: (n·h)² = sum² · inverse.
+// Loses the lobe to rounding as p grows (absolute error 0.045 at r = 0.05, 0.85 at r = 0.02 in float).
+FN real lobeExp2(real sum, real inverse, real p) {
+  real noh = max(sum, R(0.0));
+  return exp2(R(0.5) * p * log2(clamp(noh * noh * inverse, BURNISH_GUARD_LOG, R(1.0))));
+}
+
+// ln(1 - x) for x in [0, 1], relative error below 4e-7 (float) near 0 where ln(1 - x) itself would cancel:
+// -2 artanh(x / (2 - x)) as a series for x < 1/4 (Abramowitz and Stegun 4.1.28), the plain logarithm above.
+FN real logOneMinus(real x) {
+  real t = x / (R(2.0) - x);
+  real t2 = t * t;
+  real series = R(-2.0) * t * (R(1.0) + t2 * (R(1.0) / R(3.0) + t2 * (R(0.2) + t2 * (R(1.0) / R(7.0)))));
+  real plain = log2(max(R(1.0) - x, BURNISH_GUARD_LOG)) * R(0.69314718055994531);
+  return x < R(0.25) ? series : plain;
+}
+
+// Through the sine: (n·h)^p = exp(p/2 · ln(1 - |n×h|²)). Stable: absolute error 2.5e-5 at r = 0.05, 1.5e-4 at 0.02 in float.
+FN real lobeStable(real sin2, real p) { return exp2(R(0.5) * p * R(1.4426950408889634) * logOneMinus(clamp(sin2, R(0.0), R(1.0)))); }
+
+// |n×h|² of h = (l + v)/|l + v|, from what l and v leave in the tangent plane: h's own length along n never enters, so nothing cancels near the mirror direction.
+// nol = n·l, vt = v - n (n·v), inverse = 1/|l + v|².
+FN real sinSquaredHalf(vec3 n, vec3 l, real nol, vec3 vt, real inverse) {
+  vec3 t = l - n * nol + vt;
+  return dot(t, t) * inverse;
+}

@@ -1,0 +1,40 @@
+// Octahedral unit vectors (Meyer et al. 2010; Cigolle et al. 2014, "A Survey of Efficient Representations for Independent Unit Vectors", section 3.3).
+
+FN real signNotZero(real x) { return x >= R(0.0) ? R(1.0) : R(-1.0); }
+
+// Unit vector to the square [-1,1]². A zero vector gives (0, 0), which decodes to +z.
+FN vec2 octahedralEncode(vec3 n) {
+  real s = abs(n.x) + abs(n.y) + abs(n.z);
+  real k = s > R(0.0) ? R(1.0) / s : R(0.0);
+  real x = n.x * k;
+  real y = n.y * k;
+  if (n.z < R(0.0)) return vec2((R(1.0) - abs(y)) * signNotZero(x), (R(1.0) - abs(x)) * signNotZero(y));
+  return vec2(x, y);
+}
+
+FN vec3 octahedralDecode(vec2 e) {
+  real z = R(1.0) - abs(e.x) - abs(e.y);
+  real t = max(-z, R(0.0));
+  real x = e.x + (e.x >= R(0.0) ? -t : t);
+  real y = e.y + (e.y >= R(0.0) ? -t : t);
+  return normalize(vec3(x, y, z));
+}
+
+// 2 × 12 bits in three 8-bit channels. Codes run 0..4094 so that -1, 0 and 1 are exact. Returns channel values k/255.
+FN vec3 packNormal(vec3 n) {
+  vec2 e = octahedralEncode(n);
+  real u = floor((e.x + R(1.0)) * R(2047.0) + R(0.5));
+  real v = floor((e.y + R(1.0)) * R(2047.0) + R(0.5));
+  real uh = floor(u / R(256.0));
+  real vh = floor(v / R(256.0));
+  return vec3(u - uh * R(256.0), v - vh * R(256.0), uh * R(16.0) + vh) / R(255.0);
+}
+
+FN vec3 unpackNormal(vec3 rgb) {
+  real lowU = floor(rgb.x * R(255.0) + R(0.5));
+  real lowV = floor(rgb.y * R(255.0) + R(0.5));
+  real high = floor(rgb.z * R(255.0) + R(0.5));
+  real uh = floor(high / R(16.0));
+  real vh = high - uh * R(16.0);
+  return octahedralDecode(vec2((lowU + uh * R(256.0)) / R(2047.0) - R(1.0), (lowV + vh * R(256.0)) / R(2047.0) - R(1.0)));
+}
