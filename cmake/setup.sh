@@ -59,7 +59,7 @@ build() {
 # build_quietly PRESET TARGET...: not a word, unless it fails.
 build_quietly() {
   local log=build/$1.log
-  build "$@" 2>"$log" || { cat "$log" >&2; exit 1; }
+  (build "$@") 2>"$log" || { cat "$log" >&2; exit 1; }
 }
 
 # locked COMMAND...: one build at a time in this checkout.

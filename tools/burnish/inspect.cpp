@@ -1,0 +1,93 @@
+// burnish inspect: what a scene or picture holds and what is wrong with it; what a substance is.
+#include "inspect.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+
+#include "commands.h"
+#include "messages.h"
+#include "samples.h"
+#include "scene_options.h"
+
+namespace cli {
+namespace fs = std::filesystem;
+using burnish::fail;
+using burnish::Result;
+
+namespace {
+
+constexpr std::uint64_t kMostBytes = 2048ull << 20;
+
+enum class Kind { Scene, Picture };
+
+/// By magic bytes, as the engine itself tells them apart; what is no picture is left to the scene loader and its errors.
+Kind kindOf(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  char head[11] = {};
+  in.read(head, sizeof head);
+  const std::string_view text(head, std::size_t(in.gcount()));
+  const bool picture = text.starts_with("\x89PNG") || text.starts_with("\xff\xd8\xff") || text.starts_with("\x76\x2f\x31\x01") ||
+                       text.starts_with("#?RADIANCE") || text.starts_with("#?RGBE");
+  return picture ? Kind::Picture : Kind::Scene;
+}
+
+Result<burnish::Image> readPicture(const fs::path& file) {
+  std::error_code error;
+  const std::uint64_t size = fs::file_size(file, error);
+  if (error || size > kMostBytes) return fail(file.string(), error ? "cannot be read: " + error.message() : fmt::format("is too large ({} bytes)", size), "");
+  std::vector<std::byte> bytes(size);
+  std::ifstream in(file, std::ios::binary);
+  if (!in.read(reinterpret_cast<char*>(bytes.data()), std::streamsize(size))) return fail(file.string(), "cannot be read", "check the disk");
+  return burnish::makeDecoderPool()->decode(bytes, file.string());
+}
+
+int inspectFile(const std::string& given) {
+  const auto file = resolveScene(given);
+  if (!file) return printError(file.error());
+  std::error_code error;
+  if (!fs::is_regular_file(*file, error)) return printError({given, "is no regular file", "give a .gltf, .glb, .png, .jpg, .hdr or .exr file"});
+  Progress progress;
+  progress.stage("loading " + file->string());
+  if (kindOf(*file) == Kind::Picture) {
+    const auto picture = readPicture(*file);
+    progress.finish();
+    if (!picture) return printError(picture.error());
+    printPicture(*picture, given);
+    return kOk;
+  }
+  burnish::Report report;
+  const auto scene = burnish::loadScene(*file, {}, report);
+  progress.finish();
+  if (!scene) return printError(scene.error());
+  printScene(*scene, report, given);
+  return kOk;
+}
+
+int inspectSubstance(const std::string& name) {
+  if (const burnish::Substance* substance = burnish::findSubstance(name)) return printSubstance(*substance), kOk;
+  std::vector<std::string> names;
+  for (const burnish::Substance& substance : burnish::substances()) names.emplace_back(substance.name);
+  return printError({name, "no such substance" + didYouMean(name, names), "choose one of: " + listed(names)});
+}
+
+}  // namespace
+
+Command addInspect(CLI::App& program) {
+  struct Options {
+    std::string file, substance;
+  };
+  auto options = std::make_shared<Options>();
+  CLI::App* app = program.add_subcommand("inspect", "What a scene or picture holds and what is wrong with it; what a substance is");
+  CLI::Option* file = app->add_option("FILE", options->file, "a scene (.gltf, .glb, a sample's name) or a picture (.png, .jpg, .hdr, .exr)")->type_name("");
+  CLI::Option* substance = app->add_option("--substance", options->substance, "a substance of the library: F0, IOR, code, colour")->type_name("NAME");
+  file->excludes(substance);
+  return {app, [options, app] {
+            if (!options->substance.empty()) return inspectSubstance(options->substance);
+            if (!options->file.empty()) return inspectFile(options->file);
+            fmt::print(stderr, "burnish: FILE or --substance is required: see 'burnish {} --help'\n", app->get_name());
+            return int(kUsage);
+          }};
+}
+
+}  // namespace cli

@@ -1,0 +1,14 @@
+// The parts of `burnish inspect`. Each prints what it finds on standard output.
+#pragma once
+#include <burnish/scene.h>
+
+namespace cli {
+
+void printScene(const burnish::Scene& scene, const burnish::Report& report, const std::string& name);
+void printPicture(const burnish::Image& image, const std::string& name);
+void printSubstance(const burnish::Substance& substance);
+
+/// What a range of substance codes means: "dielectric, F0 0.040 (IOR 1.50)", "metal 100 %", "dielectric to metal 80 %".
+std::string describeCodes(float least, float most);
+
+}  // namespace cli

@@ -1,0 +1,161 @@
+// burnish render: one picture, headless.
+#include <burnish/renderer.h>
+#include <fmt/format.h>
+
+#include "commands.h"
+#include "output.h"
+#include "render_report.h"
+#include "scene_options.h"
+
+namespace cli {
+namespace {
+using burnish::fail;
+using burnish::Result;
+
+constexpr int kUnmeasuredFrames = 2;  // the first compiles and uploads, the second has its timer queries still under way
+constexpr int kMostLateFrames = 4;    // after the last measured frame, to let its timer queries arrive
+
+struct RenderArguments {
+  SceneOptions scene;
+  std::string output, json;
+  burnish::DebugView debugView = burnish::DebugView::Final;
+  int frames = 0;  ///< 0: not asked for
+  bool profile = false;
+
+  [[nodiscard]] bool timed() const { return frames > 0 || profile || !json.empty(); }
+  [[nodiscard]] burnish::Output outputKind() const {
+    return std::filesystem::path(output).extension() == ".exr" ? burnish::Output::Linear : burnish::Output::Display;
+  }
+};
+
+/// Everything that lives in the context.
+struct Session {
+  std::unique_ptr<burnish::Context> context;
+  std::unique_ptr<burnish::Renderer> renderer;
+  std::unique_ptr<burnish::OffscreenTarget> target;
+  void (*finish)() = nullptr;  ///< glFinish
+};
+
+Result<Session> open(const RenderArguments& arguments) {
+  Session session;
+  auto context = openContext(arguments.scene);
+  if (!context) return fail(context.error());
+  session.context = std::move(*context);
+  const burnish::ProcAddress address = session.context->procAddress();
+  session.finish = reinterpret_cast<void (*)()>(address("glFinish"));
+  auto renderer = burnish::Renderer::create(address);
+  if (!renderer) return fail(renderer.error());
+  session.renderer = std::move(*renderer);
+  auto target = burnish::OffscreenTarget::create(address, arguments.scene.size, arguments.outputKind());
+  if (!target) return fail(target.error());
+  session.target = std::move(*target);
+  return session;
+}
+
+/// One frame from its call to its last pixel; adds its times to `report` when it is measured.
+Result<burnish::FrameStats> drawFrame(Session& session, const LoadedScene& loaded, const RenderArguments& arguments,
+                                      const burnish::RenderRequest& request, RenderReport* report) {
+  const FrameClock clock;
+  auto stats = session.renderer->render(loaded.scene, {&loaded.view, 1}, session.target->target(), arguments.scene.quality, request);
+  session.finish();
+  if (!stats) return fail(stats.error());
+  if (report) report->addFrame(clock, request.timing == burnish::TimingMode::Off ? nullptr : &*stats);
+  return stats;
+}
+
+Result<burnish::Image> draw(Session& session, const LoadedScene& loaded, const RenderArguments& arguments, RenderReport& report, Progress& progress) {
+  burnish::RenderRequest request;
+  request.output = arguments.outputKind();
+  request.debugView = arguments.debugView;
+  const bool timed = arguments.timed();
+  const int frames = std::max(arguments.frames, 1);
+  const auto mode = !timed ? burnish::TimingMode::Off : arguments.profile ? burnish::TimingMode::Profile : burnish::TimingMode::Async;
+
+  for (int i = 0; i < (timed ? kUnmeasuredFrames : 0); ++i) {
+    progress.stage("preparing");
+    request.timing = mode;
+    request.countNonfinite = i == 0;  // its pass must not be in the measured frames
+    auto stats = drawFrame(session, loaded, arguments, request, nullptr);
+    if (!stats) return fail(stats.error());
+    report.addCounts(*stats, request.countNonfinite);
+  }
+  progress.stage("rendering");
+  request.timing = mode;
+  request.countNonfinite = !timed;
+  for (int i = 0; i < frames; ++i) {
+    progress.step(i, frames);
+    auto stats = drawFrame(session, loaded, arguments, request, timed ? &report : nullptr);
+    if (!stats) return fail(stats.error());
+    report.addCounts(*stats, request.countNonfinite);
+  }
+  report.plan = session.renderer->lastPlan();
+  auto picture = session.target->read();
+  for (int i = 0; i < kMostLateFrames && mode == burnish::TimingMode::Async; ++i) {
+    auto stats = drawFrame(session, loaded, arguments, request, nullptr);
+    if (!stats) return fail(stats.error());
+    report.addPassTimes(*stats);
+  }
+  return picture;
+}
+
+int run(const RenderArguments& arguments) {
+  for (const std::string& file : {arguments.output, arguments.json})
+    if (!file.empty() && file != "-")
+      if (auto good = checkOutput(file); !good) return printError(good.error());
+  Progress progress;
+  auto loaded = loadScene(arguments.scene, progress);
+  if (!loaded) return progress.finish(), printError(loaded.error());
+  progress.stage("preparing");
+  auto session = open(arguments);
+  if (!session) return progress.finish(), printError(session.error());
+
+  RenderReport report;
+  report.backend = burnish::backendName(session->context->backend());
+  report.renderer = session->renderer->capabilities().renderer;
+  report.size = arguments.scene.size;
+  report.profile = arguments.profile;
+  auto picture = draw(*session, *loaded, arguments, report, progress);
+  if (!picture) return progress.finish(), printError(picture.error());
+  report.warnings = warningTexts(loaded->report);
+  for (std::string& text : warningTexts(session->renderer->report())) report.warnings.push_back(std::move(text));
+  report.warnAboutCounts();
+
+  progress.stage("writing " + arguments.output);
+  auto written = writePicture(arguments.output, *picture);
+  if (written && !arguments.json.empty()) written = writeJson(arguments.json, report.toJson());
+  progress.finish();
+  printWarnings(report.warnings);
+  if (!written) return printError(written.error());
+  if (arguments.json == "-") return kOk;
+  report.print();
+  fmt::print("{} ({}x{}, {}, EV100 {:.2f})\n", shown(arguments.output), report.size.x, report.size.y, loaded->cameraName, report.exposureEv);
+  return kOk;
+}
+
+}  // namespace
+
+Command addRender(CLI::App& program) {
+  auto arguments = std::make_shared<RenderArguments>();
+  CLI::App* app = program.add_subcommand("render", "One picture of a scene, headless");
+  arguments->scene.addTo(*app);
+  app->add_option_function<std::string>(
+         "-o,--output",
+         [arguments](const std::string& text) {
+           const auto ending = std::filesystem::path(text).extension();
+           if (ending != ".png" && ending != ".exr") throw CLI::ValidationError("-o", fmt::format("'{}' ends in neither .png nor .exr", text));
+           arguments->output = text;
+         },
+         "the picture: .png as shown, .exr linear in cd/m² and untouched by exposure")
+      ->type_name("IMG.png|.exr")
+      ->required();
+  const auto views = burnish::debugViewNames();
+  addChoice(*app, "--view", {views.begin(), views.end()}, [arguments](std::size_t i) { arguments->debugView = burnish::DebugView(i); }, "what to draw");
+  app->add_option("--frames", arguments->frames, "draw N frames and report median and p95 times; the last one is the picture, two unmeasured ones go first")
+      ->type_name("N")
+      ->check(CLI::Range(1, 100000));
+  app->add_flag("--profile", arguments->profile, "finish between passes: per-pass times that are right on software renderers too");
+  app->add_option("--json", arguments->json, "write times, effects, programs and warnings as JSON (- for standard output)")->type_name("FILE");
+  return {app, [arguments] { return run(*arguments); }};
+}
+
+}  // namespace cli

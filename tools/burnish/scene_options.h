@@ -1,0 +1,45 @@
+// The options of every subcommand that takes a SCENE, and what follows from them: the scene, the view, the quality, the context.
+#pragma once
+#include <burnish/plan.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <optional>
+
+#include "messages.h"
+
+namespace cli {
+
+struct SceneOptions {
+  std::string scene, camera, environment;
+  std::optional<glm::dvec3> eye, target, up;
+  std::optional<double> fovDegrees;
+  glm::ivec2 size{1280, 720};
+  burnish::Quality quality;
+  burnish::Backend backend = burnish::Backend::Egl;
+  int threads = 0;  ///< 0: as many as there are
+
+  /// Adds SCENE and its options. Values are checked while parsing: what is no number, size or known name is a usage error.
+  void addTo(CLI::App& app);
+};
+
+struct LoadedScene {
+  burnish::Scene scene;
+  burnish::View view;
+  std::string cameraName;  ///< for people: "camera hero", "eye 1,2,3", "a view of everything"
+  burnish::Report report;
+};
+
+/// Reads the scene and its environment and finds the view.
+burnish::Result<LoadedScene> loadScene(const SceneOptions& options, Progress& progress);
+
+/// Opens the backend's context; threads as asked for (Mesa's software renderer reads LP_NUM_THREADS when it starts).
+burnish::Result<std::unique_ptr<burnish::Context>> openContext(const SceneOptions& options);
+
+/// An option that takes one of a few names; `take` gets the index. An unknown name is a usage error that lists them.
+CLI::Option* addChoice(CLI::App& app, const std::string& flag, std::vector<std::string> names, std::function<void(std::size_t)> take,
+                       const std::string& description);
+
+std::vector<std::string> warningTexts(const burnish::Report& report);
+
+}  // namespace cli
