@@ -1,0 +1,118 @@
+// The library of named substances. Nobody paints substance by hand: a name gives the number, and the number says where it comes from.
+//
+// Dielectrics: the index of refraction at 589 nm. Conductors: reflectance at normal incidence, ((n-1)² + k²) / ((n+1)² + k²), from the optical constants
+// named in the row (as collected by refractiveindex.info, public domain), integrated from 380 to 700 nm over illuminant D65 with the CIE 1931 observer (the
+// fit of Wyman, Sloan and Shirley, "Simple Analytic Approximations to the CIE XYZ Color Matching Functions", 2013), brought to linear Rec.709 and clamped
+// to [0, 1] (gold's red is 1.04: it lies outside the gamut). tests/unit/material_conductors.cpp does the integral again.
+#include <burnish/material.h>
+
+#include <algorithm>
+#include <array>
+
+namespace burnish {
+namespace {
+
+constexpr Substance dielectric(std::string_view name, float ior, std::string_view source) {
+  const float f0 = f0FromIor(ior);
+  return {name, false, ior, {f0, f0, f0}, source};
+}
+constexpr Substance conductor(std::string_view name, glm::vec3 f0, std::string_view source) { return {name, true, 0, f0, source}; }
+
+constexpr std::array kSubstances = {
+    // clang-format off
+    dielectric("acrylic", 1.491f, "PMMA, Sultanova et al. 2009"),
+    conductor("aluminium", {0.908f, 0.916f, 0.922f}, "n, k of Rakić 1995"),
+    dielectric("amber", 1.54f, "Read, Gemmology (3rd ed.), table of refractive indices"),
+    dielectric("amethyst", 1.544f, "quartz, Ghosh 1999"),
+    dielectric("aquamarine", 1.577f, "Read, Gemmology (3rd ed.), table of refractive indices"),
+    conductor("brass", {0.908f, 0.779f, 0.423f}, "n, k of Querry 1985, 70 % Cu, 30 % Zn"),
+    dielectric("calcite", 1.658f, "marble and limestone; Ghosh 1999, ordinary ray"),
+    dielectric("cellulose", 1.53f, "cotton, paper and wood fibres, Polymer Data Handbook"),
+    conductor("chromium", {0.550f, 0.556f, 0.554f}, "n, k of Johnson and Christy 1974"),
+    conductor("cobalt", {0.683f, 0.655f, 0.616f}, "n, k of Johnson and Christy 1974"),
+    conductor("copper", {0.929f, 0.624f, 0.522f}, "n, k of Johnson and Christy 1972"),
+    dielectric("cornea", 1.376f, "Patel et al. 1995"),
+    dielectric("crown glass", 1.517f, "Schott N-BK7 data sheet"),
+    dielectric("cubic zirconia", 2.16f, "Wood and Nassau 1982"),
+    dielectric("diamond", 2.417f, "Peter 1923"),
+    dielectric("emerald", 1.58f, "Read, Gemmology (3rd ed.), table of refractive indices"),
+    dielectric("ethanol", 1.361f, "CRC Handbook of Chemistry and Physics, 20 °C"),
+    dielectric("flint glass", 1.728f, "Schott SF10 data sheet"),
+    dielectric("fused quartz", 1.458f, "Malitson 1965"),
+    dielectric("garnet", 1.77f, "almandine to pyrope, Read, Gemmology (3rd ed.), table of refractive indices"),
+    dielectric("glass", 1.5f, "soda-lime window glass is 1.52 (Rubin 1985); 1.5 gives glTF's F0 0.04"),
+    conductor("gold", {1.000f, 0.729f, 0.364f}, "n, k of Johnson and Christy 1972"),
+    dielectric("hair", 1.55f, "Marschner et al. 2003"),
+    dielectric("ice", 1.31f, "Warren and Brandt 2008; its F0 of 0.018 is held at the codec's 0.0196"),
+    conductor("iron", {0.529f, 0.513f, 0.494f}, "n, k of Johnson and Christy 1974"),
+    dielectric("ivory", 1.54f, "Read, Gemmology (3rd ed.), table of refractive indices"),
+    dielectric("jade", 1.66f, "jadeite, Read, Gemmology (3rd ed.), table of refractive indices"),
+    dielectric("lapis lazuli", 1.5f, "Read, Gemmology (3rd ed.), table of refractive indices"),
+    dielectric("lead crystal", 1.545f, "24 % PbO crystal glass, EU directive 69/493/EEC"),
+    conductor("mercury", {0.781f, 0.779f, 0.778f}, "n, k of Inagaki et al. 1981"),
+    dielectric("milk", 1.35f, "Jääskeläinen et al. 2001"),
+    dielectric("moissanite", 2.65f, "silicon carbide, Shaffer 1971"),
+    conductor("nickel", {0.696f, 0.641f, 0.563f}, "n, k of Johnson and Christy 1974"),
+    dielectric("obsidian", 1.5f, "Read, Gemmology (3rd ed.), table of refractive indices"),
+    dielectric("olive oil", 1.467f, "CRC Handbook of Chemistry and Physics"),
+    dielectric("opal", 1.45f, "Read, Gemmology (3rd ed.), table of refractive indices"),
+    conductor("palladium", {0.732f, 0.697f, 0.652f}, "n, k of Johnson and Christy 1974"),
+    dielectric("pearl", 1.6f, "Read, Gemmology (3rd ed.), table of refractive indices (1.53 to 1.69)"),
+    dielectric("peridot", 1.67f, "Read, Gemmology (3rd ed.), table of refractive indices"),
+    dielectric("pet", 1.575f, "polyethylene terephthalate, Polymer Data Handbook"),
+    dielectric("plastic", 1.5f, "glTF 2.0: F0 0.04; common polymers lie between 1.41 and 1.59"),
+    conductor("platinum", {0.672f, 0.637f, 0.585f}, "Lagarde, Feeding a physically based shading model (2011), from Palik's Handbook"),
+    dielectric("polycarbonate", 1.585f, "Sultanova et al. 2009"),
+    dielectric("polystyrene", 1.592f, "Sultanova et al. 2009"),
+    dielectric("ptfe", 1.35f, "Polymer Data Handbook"),
+    dielectric("quartz", 1.544f, "Ghosh 1999, ordinary ray"),
+    dielectric("rubber", 1.519f, "natural rubber, Polymer Data Handbook"),
+    dielectric("ruby", 1.77f, "corundum, Malitson and Dodge 1972, ordinary ray"),
+    dielectric("rutile", 2.61f, "titanium dioxide, DeVore 1951, ordinary ray"),
+    dielectric("salt", 1.544f, "sodium chloride, Li 1976"),
+    dielectric("sapphire", 1.768f, "corundum, Malitson and Dodge 1972, ordinary ray"),
+    dielectric("silicone", 1.41f, "PDMS, Polymer Data Handbook"),
+    conductor("silver", {0.989f, 0.984f, 0.978f}, "n, k of Johnson and Christy 1972"),
+    dielectric("skin", 1.4f, "Ding et al. 2006 (1.38 to 1.45 over the visible range)"),
+    dielectric("spinel", 1.718f, "Read, Gemmology (3rd ed.), table of refractive indices"),
+    conductor("steel", {0.669f, 0.639f, 0.598f}, "n, k of Karlsson and Ribbing 1982, austenitic stainless steel"),
+    conductor("titanium", {0.618f, 0.580f, 0.543f}, "n, k of Johnson and Christy 1974"),
+    dielectric("topaz", 1.62f, "Read, Gemmology (3rd ed.), table of refractive indices"),
+    dielectric("tourmaline", 1.63f, "Read, Gemmology (3rd ed.), table of refractive indices"),
+    conductor("tungsten", {0.516f, 0.496f, 0.467f}, "n, k of Weaver et al. 1975"),
+    dielectric("turquoise", 1.61f, "Read, Gemmology (3rd ed.), table of refractive indices"),
+    dielectric("water", 1.333f, "CRC Handbook of Chemistry and Physics, 20 °C"),
+    dielectric("wax", 1.44f, "paraffin, CRC Handbook of Chemistry and Physics"),
+    conductor("zinc", {0.875f, 0.869f, 0.855f}, "n, k of Werner et al. 2009"),
+    dielectric("zircon", 1.95f, "Read, Gemmology (3rd ed.), table of refractive indices"),
+    // clang-format on
+};
+
+struct Alias {
+  std::string_view name, of;
+};
+constexpr Alias kAliases[] = {{"aluminum", "aluminium"}, {"chrome", "chromium"},    {"corundum", "sapphire"},   {"cotton", "cellulose"}, {"pmma", "acrylic"},
+                              {"paper", "cellulose"},    {"stainless steel", "steel"}, {"marble", "calcite"},      {"teflon", "ptfe"},      {"titanium dioxide", "rutile"},
+                              {"wood", "cellulose"}};
+
+constexpr char fold(char c) {
+  if (c == '-' || c == '_') return ' ';
+  return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
+}
+bool same(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) { return fold(x) == fold(y); });
+}
+
+}  // namespace
+
+std::span<const Substance> substances() { return kSubstances; }
+
+const Substance* findSubstance(std::string_view name) {
+  for (const Alias& alias : kAliases)
+    if (same(alias.name, name)) name = alias.of;
+  for (const Substance& s : kSubstances)
+    if (same(s.name, name)) return &s;
+  return nullptr;
+}
+
+}  // namespace burnish
