@@ -38,6 +38,9 @@ class Device {
   void pushGroup(std::string_view name) const;
   void popGroup() const;
 
+  /// Whether the last calls ran out of memory. Other errors that glGetError holds are kept for takeErrors().
+  [[nodiscard]] bool ranOutOfMemory();
+
   /// For the objects of objects.h: books memory of a texture or buffer in or out.
   void addTextureBytes(std::int64_t delta) { textureBytes_ += delta; }
   void addBufferBytes(std::int64_t delta) { bufferBytes_ += delta; }
@@ -45,6 +48,7 @@ class Device {
  private:
   Device(const GladGLContext& table, Capabilities capabilities);
   void installCallback();
+  void keepError(std::string text);
   static void GLAD_API_PTR onMessage(GLenum source, GLenum type, GLuint id, GLenum severity, GLsizei length, const GLchar* text, const void* user);
 
   std::int64_t textureBytes_ = 0, bufferBytes_ = 0;

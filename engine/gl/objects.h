@@ -121,6 +121,7 @@ class TextureBuffer {
   Result<void> checkSize(std::size_t bytes) const;
   Buffer buffer_;   // destroyed after the texture that reads it
   Handle handle_;
+  GLenum format_ = 0;
   int texelBytes_ = 0;
   std::string label_;
 };
