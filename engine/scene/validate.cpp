@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "scene/basis.h"
+
 namespace burnish {
 namespace {
 
@@ -113,19 +115,13 @@ void mendNormals(Mesh& mesh, Report& report) {
   if (mended) report.warn(placeOf(mesh), fmt::format("{} zero or non-finite normals were replaced by geometric ones", mended));
 }
 
-/// Any unit vector at right angles to n (Duff et al. 2017, "Building an Orthonormal Basis, Revisited").
-glm::vec3 perpendicular(const glm::vec3& n) {
-  const float sign = std::copysign(1.0f, n.z), a = -1 / (sign + n.z);
-  return {1 + sign * n.x * n.x * a, sign * n.x * n.y * a, -sign * n.x};
-}
-
 void mendTangents(Mesh& mesh, Report& report) {
   std::size_t mended = 0;
   for (std::size_t i = 0; i < mesh.tangents.size(); ++i) {
     glm::vec4& t = mesh.tangents[i];
     const double length = glm::length(glm::dvec3(t));
     if (!std::isfinite(length) || length < 1e-12 || !std::isfinite(t.w)) {
-      t = glm::vec4(perpendicular(mesh.normals[i]), 1);
+      t = glm::vec4(scene::perpendicular(mesh.normals[i]), 1);
       ++mended;
     } else if (std::abs(length - 1) > 1e-6) {
       t = glm::vec4(glm::vec3(glm::dvec3(t) / length), t.w);
