@@ -6,3 +6,6 @@ install(EXPORT BurnishTargets NAMESPACE Burnish:: DESTINATION ${CMAKE_INSTALL_LI
 configure_package_config_file(cmake/BurnishConfig.cmake.in ${PROJECT_BINARY_DIR}/BurnishConfig.cmake INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/Burnish)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/BurnishConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/BurnishConfig.cmake ${PROJECT_BINARY_DIR}/BurnishConfigVersion.cmake DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/Burnish)
+if(TARGET burnish-decode)
+  install(TARGETS burnish-decode RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()

@@ -40,7 +40,12 @@ struct DecodeLimits {
 };
 
 /// Turns a file's bytes into an Image. Accepts PNG, JPEG, Radiance HDR, OpenEXR by magic bytes, nothing else.
-/// 8-bit files give U8, 16-bit PNG gives U16, HDR and EXR give F32. Implementations are safe to call from one thread at a time.
+/// 8-bit files give U8, 16-bit PNG gives U16, HDR and EXR give F32. Channels stay as stored (1 grey, 2 grey and alpha, 3, 4); palettes
+/// are expanded, CMYK becomes RGB, of more than four channels the first four are kept. Values are those of the file: no colour
+/// conversion, no premultiplication, no EXIF rotation (glTF 2.0, 3.8.2); HDR and EXR may hold infinities and NaN. An EXR's picture is
+/// its display window, zero where the file has no data. The two implementations of this project (makeDecoderPool here, and
+/// makeInProcessDecoder of decode_inprocess.h) are safe to call from several threads at a time; one of your own is called from one
+/// thread at a time.
 class BURNISH_API ImageDecoder {
  public:
   virtual ~ImageDecoder() = default;
@@ -50,11 +55,13 @@ class BURNISH_API ImageDecoder {
 
 struct DecoderPoolOptions {
   std::filesystem::path helper;  ///< the `burnish-decode` program; empty: beside the running program, then the install folder
-  int processes = 2;             ///< at most; started when first needed, reused, ended with the pool
+  int processes = 2;             ///< workers at most; started when first needed, reused, ended with the pool; a call waits for a free one
+  bool startNow = false;         ///< starts the helper at once, in the background, so that its loading (160 ms of CPU) passes while you work
   std::uint64_t memoryBytes = 2048ull * 1024 * 1024;  ///< address-space limit of each helper beyond its start-up size
 };
 
-/// Decoding in helper processes with memory and time limits, so that a damaged picture costs one error and never the program.
+/// Decoding in helper processes with memory and time limits, so that a damaged picture costs one error and never the program. Nothing
+/// is started for a file that is no picture or too large by its header. Destroy the pool only when no call is under way.
 BURNISH_API std::unique_ptr<ImageDecoder> makeDecoderPool(DecoderPoolOptions options = {});
 
 /// Writes an 8-bit PNG (1 to 4 channels, sRGB) under a temporary name, then renames it: never a half-written file.

@@ -1,0 +1,135 @@
+#include "oiio_decode.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <cstring>
+#include <exception>
+#include <string>
+#include <vector>
+
+namespace burnish::decode {
+namespace {
+
+using image::PictureFormat;
+using image::PictureHeader;
+
+tl::unexpected<Error> damaged(std::string_view name, std::string_view what) {
+  std::string text = "cannot be decoded: " + std::string(what.substr(0, 160));
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < 0x20) c = ' ';
+  while (text.ends_with(' ') || text.ends_with(':')) text.pop_back();
+  return fail(std::string(name), std::move(text), "export the picture again");
+}
+
+constexpr const char* kPlugins[] = {"png", "jpeg", "hdr", "openexr"};  ///< in the order of PictureFormat
+
+OIIO::TypeDesc oiioType(PixelType type) {
+  return type == PixelType::U8 ? OIIO::TypeDesc::UINT8 : type == PixelType::U16 ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::FLOAT;
+}
+
+/// Whether what OpenImageIO found agrees with what the header said to the caller.
+bool agrees(const OIIO::ImageSpec& spec, const PictureHeader& header) {
+  return spec.width == header.dataWidth && spec.height == header.dataHeight && spec.depth == 1 && spec.nchannels > 0 && !spec.deep &&
+         (header.format != PictureFormat::Exr || (spec.full_width == header.width && spec.full_height == header.height));
+}
+
+struct Rows {
+  std::byte* data;
+  std::size_t rowBytes, pixelBytes;
+  int width, height;
+};
+
+void flipVertically(const Rows& rows) {
+  for (int top = 0, bottom = rows.height - 1; top < bottom; ++top, --bottom)
+    std::swap_ranges(rows.data + std::size_t(top) * rows.rowBytes, rows.data + std::size_t(top + 1) * rows.rowBytes,
+                     rows.data + std::size_t(bottom) * rows.rowBytes);
+}
+
+void flipHorizontally(const Rows& rows) {
+  for (int y = 0; y < rows.height; ++y) {
+    std::byte* row = rows.data + std::size_t(y) * rows.rowBytes;
+    for (int left = 0, right = rows.width - 1; left < right; ++left, --right)
+      std::swap_ranges(row + std::size_t(left) * rows.pixelBytes, row + std::size_t(left + 1) * rows.pixelBytes,
+                       row + std::size_t(right) * rows.pixelBytes);
+  }
+}
+
+/// A Radiance file says in which order its rows and pixels come; OpenImageIO hands that on as an EXIF orientation (1 to 4).
+void orientHdr(const OIIO::ImageSpec& spec, const Rows& rows) {
+  const int orientation = spec.get_int_attribute("Orientation", 1);
+  if (orientation == 3 || orientation == 4) flipVertically(rows);
+  if (orientation == 2 || orientation == 3) flipHorizontally(rows);
+}
+
+/// OpenEXR whose data window is not the display window: the part of the data that lies inside, the rest stays zero.
+bool readWindowed(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, OIIO::TypeDesc type, const Rows& rows, int channels) {
+  std::vector<std::byte> data(std::size_t(spec.width) * std::size_t(spec.height) * rows.pixelBytes);
+  if (!input.read_image(0, 0, 0, channels, type, data.data())) return false;
+  std::memset(rows.data, 0, rows.rowBytes * std::size_t(rows.height));
+  const int x0 = std::max(spec.x, spec.full_x), x1 = std::min(spec.x + spec.width, spec.full_x + spec.full_width);
+  const int y0 = std::max(spec.y, spec.full_y), y1 = std::min(spec.y + spec.height, spec.full_y + spec.full_height);
+  if (x0 >= x1) return true;
+  for (int y = y0; y < y1; ++y)
+    std::memcpy(rows.data + std::size_t(y - spec.full_y) * rows.rowBytes + std::size_t(x0 - spec.full_x) * rows.pixelBytes,
+                data.data() + (std::size_t(y - spec.y) * std::size_t(spec.width) + std::size_t(x0 - spec.x)) * rows.pixelBytes,
+                std::size_t(x1 - x0) * rows.pixelBytes);
+  return true;
+}
+
+Result<Decoded> decodeThrowing(std::span<const std::byte> file, std::string_view name, const PictureHeader& header, const DecodeLimits& limits,
+                               const Placement& place) {
+  OIIO::Filesystem::IOMemReader memory(const_cast<std::byte*>(file.data()), file.size());
+  OIIO::ImageSpec config;
+  config.attribute("oiio:UnassociatedAlpha", 1);
+  // ImageInput::open would look for a file of the name and try other plugins when the right one fails.
+  const auto input = OIIO::ImageInput::create(kPlugins[static_cast<std::size_t>(header.format)]);
+  if (!input) return damaged(name, OIIO::geterror());
+  OIIO::ImageSpec spec;
+  if (!input->set_ioproxy(&memory) || !input->open("picture", spec, config)) return damaged(name, input->geterror());
+  if (!agrees(spec, header)) return damaged(name, "its parts contradict its header");
+
+  Decoded decoded{header.width, header.height, std::min(spec.nchannels, 4), header.type};
+  PictureHeader actual = header;
+  actual.channels = decoded.channels;
+  if (auto ok = image::checkPictureLimits(actual, limits, name); !ok) return fail(ok.error());
+  std::byte* pixels = place(decoded, actual.decodedBytes());
+  if (!pixels) return fail(std::string(name), "there is no memory for its pixels", "make the picture smaller");
+
+  const std::size_t pixelBytes = std::size_t(decoded.channels) * std::size_t(bytesPerChannel(decoded.type));
+  const Rows rows{pixels, pixelBytes * std::size_t(decoded.width), pixelBytes, decoded.width, decoded.height};
+  const OIIO::TypeDesc type = oiioType(decoded.type);
+  const bool whole = header.format != PictureFormat::Exr || (spec.x == spec.full_x && spec.y == spec.full_y && spec.width == spec.full_width &&
+                                                             spec.height == spec.full_height);
+  const bool read = whole ? input->read_image(0, 0, 0, decoded.channels, type, pixels) : readWindowed(*input, spec, type, rows, decoded.channels);
+  if (!read) return damaged(name, input->geterror());
+  if (header.format == PictureFormat::Hdr) orientHdr(spec, rows);
+  return decoded;
+}
+
+}  // namespace
+
+void prepareOpenImageIo() {
+  OIIO::attribute("threads", 1);
+  OIIO::attribute("exr_threads", -1);
+  for (const char* plugin : kPlugins) (void)OIIO::ImageInput::create(plugin);
+  (void)OIIO::geterror();
+}
+
+Result<Decoded> decodePicture(std::span<const std::byte> file, std::string_view name, const DecodeLimits& limits, const Placement& place) {
+  auto header = image::readPictureHeader(file, name);
+  if (!header) return fail(header.error());
+  if (auto ok = image::checkPictureLimits(*header, limits, name); !ok) return fail(ok.error());
+  try {
+    return decodeThrowing(file, name, *header, limits, place);
+  } catch (const std::bad_alloc&) {
+    return fail(std::string(name), "takes more memory to decode than allowed", "make the picture smaller, or export it again if it is damaged");
+  } catch (const std::exception& e) {
+    return damaged(name, e.what());
+  } catch (...) {
+    return damaged(name, "unknown failure");
+  }
+}
+
+}  // namespace burnish::decode
