@@ -1,0 +1,372 @@
+#!/usr/bin/env python3
+"""The burnish program, driven as a user drives it: test_program.py BURNISH [unittest arguments]."""
+import base64
+import json
+import os
+import pathlib
+import re
+import resource
+import shutil
+import signal
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+BURNISH = ""
+SUBCOMMANDS = ["render", "plan", "inspect", "doctor"]
+SANITIZED = os.environ.get("BURNISH_SANITIZED") == "1"
+RENDER_KEYS = ["schema_version", "backend", "renderer", "size", "frames", "timing_mode", "frame_ms", "frame_cpu_ms", "passes", "effects", "programs",
+               "gbuffer_bytes_per_pixel", "texture_bytes", "nonfinite_pixels", "gl_errors", "warnings"]
+PLAN_KEYS = ["schema_version", "effects", "passes", "programs", "targets"]
+
+
+def scene_text(points=((-1, -1, 0), (1, -1, 0), (0, 1, 0)), indices=(0, 1, 2)):
+    """A triangle, a sun, two cameras, in one file."""
+    positions = b"".join(struct.pack("<3f", *p) for p in points)
+    data = positions + struct.pack(f"<{len(indices)}H", *indices)
+    lows, highs = [min(p[i] for p in points) for i in range(3)], [max(p[i] for p in points) for i in range(3)]
+    return json.dumps({
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1, 2, 3]}],
+        "extensionsUsed": ["KHR_lights_punctual"],
+        "extensions": {"KHR_lights_punctual": {"lights": [{"type": "directional", "intensity": 5, "name": "sun"}]}},
+        "nodes": [{"mesh": 0, "name": "tri"}, {"camera": 0, "translation": [0, 0, 4]}, {"camera": 1, "translation": [0, 0, 9]},
+                  {"extensions": {"KHR_lights_punctual": {"light": 0}}, "translation": [0, 0, 3]}],
+        "cameras": [{"name": "front", "type": "perspective", "perspective": {"yfov": 0.8, "znear": 0.1}},
+                    {"name": "far", "type": "perspective", "perspective": {"yfov": 0.8, "znear": 0.1}}],
+        "materials": [{"name": "gold-ish", "pbrMetallicRoughness": {"baseColorFactor": [1, 0.7, 0.3, 1], "metallicFactor": 0, "roughnessFactor": 0.4}}],
+        "meshes": [{"name": "m", "primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "material": 0}]}],
+        "buffers": [{"byteLength": len(data), "uri": "data:application/octet-stream;base64," + base64.b64encode(data).decode()}],
+        "bufferViews": [{"buffer": 0, "byteLength": len(positions)}, {"buffer": 0, "byteOffset": len(positions), "byteLength": len(data) - len(positions)}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": len(points), "type": "VEC3", "min": lows, "max": highs},
+                      {"bufferView": 1, "componentType": 5123, "count": len(indices), "type": "SCALAR"}]})
+
+
+class Program(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="burnish-test-"))
+        self.addCleanup(shutil.rmtree, self.folder)
+        self.scene = self.folder / "scene.gltf"
+        self.scene.write_text(scene_text())
+        self.out = self.folder / "out"
+        self.out.mkdir()
+
+    def run_it(self, *arguments, **more):
+        return subprocess.run([BURNISH, *map(str, arguments)], capture_output=True, text=True, timeout=300, stdin=subprocess.DEVNULL, **more)
+
+    def good(self, *arguments):
+        result = self.run_it(*arguments)
+        self.assertEqual(result.returncode, 0, f"{arguments}: {result.stderr}{result.stdout}")
+        return result
+
+    def bad(self, code, *arguments, says=()):
+        """One clear line on standard error, nothing on standard output, the right exit code."""
+        result = self.run_it(*arguments)
+        self.assertEqual(result.returncode, code, f"{arguments}: {result.stderr}{result.stdout}")
+        lines = [line for line in result.stderr.splitlines() if not line.startswith("burnish: warning: ")]
+        self.assertEqual(len(lines), 1, result.stderr)
+        self.assertRegex(lines[0], r"^burnish: .+: .+")
+        self.assertEqual(result.stdout, "")
+        for text in [says] if isinstance(says, str) else says:
+            self.assertIn(text, lines[0])
+        return lines[0]
+
+
+class Help(Program):
+    def test_every_subcommand_has_help(self):
+        whole = self.good("--help").stdout
+        for name in SUBCOMMANDS:
+            self.assertIn(name, whole)
+            self.assertIn("--help", self.good(name, "--help").stdout)
+
+    def test_scene_options_are_in_help(self):
+        for name in "render", "plan":
+            text = self.good(name, "--help").stdout
+            for option in "--camera --eye --target --up --fov --size --env --exposure --tonemap --backend --threads --json".split():
+                self.assertIn(option, text)
+
+    def test_what_does_not_work_yet_is_not_in_help(self):
+        texts = "".join(self.good(*words, "--help").stdout for words in [[]] + [[name] for name in SUBCOMMANDS])
+        for later in "--quality --set --probes --time --list-rungs bake prefilter reference stability".split():
+            self.assertNotRegex(texts, rf"(?<![\w-]){later}(?![\w-])")
+
+    def test_help_costs_little(self):
+        if SANITIZED:
+            return
+        costs = []
+        for _ in range(5):
+            before = resource.getrusage(resource.RUSAGE_CHILDREN)
+            self.good("--help")
+            after = resource.getrusage(resource.RUSAGE_CHILDREN)
+            costs.append(after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime)
+        self.assertLess(min(costs), 0.050)
+
+    def test_version(self):
+        self.assertRegex(self.good("--version").stdout, r"^burnish \d+\.\d+\.\d+\n$")
+
+    def test_nothing_asked_is_a_usage_error(self):
+        result = self.run_it()
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("render", result.stderr)
+
+
+class Usage(Program):
+    def test_unknown_subcommand(self):
+        self.bad(2, "rendr", says=("did you mean 'render'", "doctor"))
+        self.bad(2, "frobnicate", says="doctor")
+
+    def test_unknown_option(self):
+        self.bad(2, "render", self.scene, "-o", self.out / "a.png", "--tonemapp", "agx", says="did you mean '--tonemap'")
+        self.bad(2, "plan", self.scene, "second.gltf", says="second.gltf")
+
+    def test_missing_arguments(self):
+        self.bad(2, "render", says="SCENE")
+        self.bad(2, "render", self.scene, says="-o")
+        self.bad(2, "inspect", says="FILE")
+
+    def test_bad_values(self):
+        for option, values in {"--size": ["12", "0x5", "5x", "-4x4", "99999x1", "1x1x1"], "--eye": ["1,2", "a,b,c", "1,2,nan", "1,2,3,4", ""],
+                               "--fov": ["0", "180", "nan", "wide"], "--exposure": ["bright", "inf", "1e9"], "--threads": ["0", "-1", "many", "1.5"],
+                               "--tonemap": ["filmic"], "--backend": ["vulkan"]}.items():
+            for value in values:
+                self.bad(2, "plan", self.scene, f"{option}={value}", says=option)
+        self.bad(2, "render", self.scene, "-o", self.out / "a.png", "--view", "x", says=("--view", "albedo", "nonfinite"))
+        self.bad(2, "render", self.scene, "-o", self.out / "a.jpg", says=(".png", ".exr"))
+        self.bad(2, "render", self.scene, "-o", self.out / "a.png", "--frames", "0", says="--frames")
+
+    def test_alternatives_are_listed(self):
+        self.bad(2, "plan", self.scene, "--tonemap", "filmic", says=("neutral", "agx", "aces", "none"))
+        self.bad(2, "plan", self.scene, "--backend", "vulkan", says=("egl", "osmesa", "glfw"))
+
+    def test_eye_and_camera_are_one_or_the_other(self):
+        self.bad(2, "plan", self.scene, "--eye", "0,0,3", says="--target")
+        self.bad(2, "plan", self.scene, "--eye", "0,0,3", "--target", "0,0,0", "--camera", "front", says="--camera")
+
+    def test_negative_numbers_are_values(self):
+        self.good("plan", self.scene, "--eye", "-1.5,-2,-3", "--target", "-.5,0,0", "--exposure", "-3")
+
+
+class Failures(Program):
+    def test_missing_files(self):
+        self.bad(1, "plan", self.folder / "none.gltf", says="none.gltf")
+        self.bad(1, "inspect", self.folder / "none.gltf", says="none.gltf")
+        self.bad(1, "plan", self.scene, "--env", self.folder / "none.hdr", says="none.hdr")
+
+    def test_unknown_sample_lists_samples(self):
+        self.bad(1, "plan", "fpz", says=("fpz", "sample"))
+
+    def test_unknown_camera_lists_cameras(self):
+        self.bad(1, "plan", self.scene, "--camera", "fron", says=("did you mean 'front'", "far"))
+        self.bad(1, "plan", self.scene, "--camera", "2", says="front")
+
+    def test_damaged_scene(self):
+        self.scene.write_text(scene_text().replace('"count": 3', '"count": 3000'))
+        self.bad(1, "plan", self.scene, says=("scene.gltf", "/accessors/"))
+        self.scene.write_bytes(b"\x00\xff" * 50)
+        self.bad(1, "inspect", self.scene, says="scene.gltf")
+
+    def test_no_regular_file(self):
+        os.mkfifo(self.folder / "pipe.gltf")
+        self.bad(1, "plan", self.folder / "pipe.gltf", says="pipe.gltf")
+        self.bad(1, "inspect", self.folder / "pipe.gltf", says="pipe.gltf")
+        self.bad(1, "inspect", self.folder, says=self.folder.name)
+        self.bad(1, "plan", "/dev/zero", says="/dev/zero")
+
+    def test_outputs_that_cannot_be_written(self):
+        old = self.out / "old.png"
+        old.write_text("precious")
+        for output in self.folder / "no/such/a.png", self.out / "dir.png", pathlib.Path("/dev/full.d/a.png"):
+            (self.out / "dir.png").mkdir(exist_ok=True)
+            self.bad(1, "render", self.scene, "-o", output, says=output.name)
+        for output in self.folder / "no/a.json", self.out, "/dev/full":
+            self.bad(1, "plan", self.scene, "--json", output)
+            self.bad(1, "render", self.scene, "-o", old, "--json", output)
+        self.assertEqual(old.read_text(), "precious")
+        self.assertEqual(sorted(p.name for p in self.out.iterdir()), ["dir.png", "old.png"])
+
+    def test_full_standard_output(self):
+        for arguments in (["--help"], ["inspect", "--substance", "gold"], ["plan", self.scene, "--json", "-"]):
+            with open("/dev/full", "w") as full:
+                result = subprocess.run([BURNISH, *map(str, arguments)], stdout=full, stderr=subprocess.PIPE, text=True, timeout=60)
+            self.assertEqual(result.returncode, 1)
+            self.assertIn("standard output", result.stderr)
+
+    def test_control_characters_do_not_reach_the_terminal(self):
+        self.scene.write_text(scene_text().replace('"gold-ish"', json.dumps("a\x1b[31mb")))
+        self.assertNotIn("\x1b", self.good("inspect", self.scene).stdout)
+
+
+class Inspect(Program):
+    def test_scene(self):
+        text = self.good("inspect", self.scene).stdout
+        for expected in "meshes: 1 with 1 triangles", "lights: 1", "cameras: 2", "front", "gold-ish", "dielectric", "bounds: -1.000,-1.000,0.000 to 1.000,1.000,0.000", "warnings: ":
+            self.assertIn(expected, text)
+
+    def test_substance(self):
+        gold = self.good("inspect", "--substance", "Gold").stdout
+        self.assertRegex(gold, r"F0: [\d.]+,[\d.]+,[\d.]+")
+        self.assertIn("code: 1.0000", gold)
+        self.assertIn("IOR: 1.33", self.good("inspect", "--substance", "water").stdout)
+        self.assertNotIn("\x1b", gold)
+        self.bad(1, "inspect", "--substance", "golt", says=("did you mean 'gold'", "water"))
+
+    def test_hdr_picture(self):
+        file = self.folder / "sky.hdr"
+        file.write_bytes(b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 4\n" + bytes([128, 64, 32, 129]) * 8)
+        text = self.good("inspect", file).stdout
+        self.assertIn("size: 4x2, 3 channels, float", text)
+        self.assertIn("lat-long", text)
+        self.assertRegex(text, r"R: 1(\.00\d*)? to 1")
+        self.assertIn("not finite: 0 NaN, 0 infinite", text)
+
+    def test_damaged_picture(self):
+        file = self.folder / "bad.png"
+        file.write_bytes(b"\x89PNG\r\n\x1a\n" + b"\x00" * 40)
+        self.bad(1, "inspect", file, says="bad.png")
+
+
+class Plan(Program):
+    def test_json(self):
+        self.good("plan", self.scene, "--json", self.out / "plan.json")
+        plan = json.loads((self.out / "plan.json").read_text(), parse_constant=self.fail)
+        self.assertEqual(list(plan), PLAN_KEYS)
+        self.assertEqual(plan["schema_version"], 1)
+        for effect in plan["effects"]:
+            self.assertEqual(list(effect), ["name", "on", "called_by", "reason"])
+            self.assertIn(effect["called_by"], ("scene", "setting"))
+            self.assertTrue(effect["reason"], effect)
+        self.assertTrue(any(effect["on"] for effect in plan["effects"]))
+        self.assertTrue(any(not effect["on"] for effect in plan["effects"]))
+        for one in plan["passes"]:
+            self.assertEqual(list(one), ["name", "reads", "writes"])
+        for target in plan["targets"]:
+            self.assertEqual(list(target), ["name", "format", "bytes"])
+        self.assertTrue(plan["passes"] and plan["programs"] and plan["targets"])
+        self.assertEqual(sorted(p.name for p in self.out.iterdir()), ["plan.json"])
+
+    def test_json_on_standard_output_is_alone(self):
+        plan = json.loads(self.good("plan", self.scene, "--json", "-").stdout)
+        self.assertEqual(list(plan), PLAN_KEYS)
+
+    def test_text(self):
+        text = self.good("plan", self.scene).stdout
+        for word in "effects", "passes", "targets", "gbuffer", "camera front", "1280x720":
+            self.assertIn(word, text)
+
+    def test_link_stays_a_link(self):
+        (self.out / "link.json").symlink_to(self.out / "real.json")
+        self.good("plan", self.scene, "--json", self.out / "link.json")
+        self.assertTrue((self.out / "link.json").is_symlink())
+        self.assertIn("effects", json.loads((self.out / "real.json").read_text()))
+
+
+class Doctor(Program):
+    def test_doctor(self):
+        text = self.good("doctor").stdout
+        for word in "egl", "osmesa", "glfw", "renderer", "largest texture":
+            self.assertIn(word, text)
+        self.assertNotIn("glfw", self.good("doctor", "--backend", "egl").stdout)
+
+
+class Render(Program):
+    def render(self, *more, name="a.png"):
+        self.good("render", self.scene, "--size", "64x48", "-o", self.out / name, *more)
+        return (self.out / name).read_bytes()
+
+    def test_png_on_both_backends(self):
+        for backend in "egl", "osmesa":
+            data = self.render("--backend", backend)
+            self.assertEqual(data[:8], b"\x89PNG\r\n\x1a\n")
+            self.assertEqual(struct.unpack(">II", data[16:24]), (64, 48))
+            self.assertEqual(sorted(p.name for p in self.out.iterdir()), ["a.png"])
+
+    def test_exr(self):
+        self.assertEqual(self.render(name="a.exr")[:4], b"\x76\x2f\x31\x01")
+
+    def test_two_runs_give_the_same_bytes(self):
+        self.assertEqual(self.render(), self.render("--frames", "3"))
+
+    def test_json(self):
+        for mode, more in ("async", []), ("profile", ["--profile"]):
+            self.render("--frames", "4", "--json", self.out / "a.json", *more)
+            report = json.loads((self.out / "a.json").read_text(), parse_constant=self.fail)
+            self.assertEqual(list(report), RENDER_KEYS)
+            self.assertEqual((report["schema_version"], report["backend"], report["size"], report["frames"]), (1, "egl", [64, 48], 4))
+            self.assertEqual(report["timing_mode"], mode)
+            self.assertEqual(report["gbuffer_bytes_per_pixel"], 8)
+            self.assertEqual((report["gl_errors"], report["nonfinite_pixels"]), (0, 0))
+            for key in "frame_ms", "frame_cpu_ms":
+                self.assertEqual(list(report[key]), ["median", "p95"])
+                self.assertGreater(report[key]["p95"], 0)
+            self.assertTrue(report["passes"] and report["effects"] and report["programs"])
+            self.assertGreater(report["texture_bytes"], 64 * 48 * 8)
+            for one in report["passes"]:
+                self.assertEqual(list(one), ["name", "gpu_ms", "cpu_ms"])
+                self.assertIsNotNone(one["gpu_ms"]["median"], one)
+                self.assertEqual(one["cpu_ms"]["median"] is not None, mode == "profile")
+
+    def test_json_on_standard_output_is_alone(self):
+        result = self.good("render", self.scene, "--size", "16x16", "-o", self.out / "a.png", "--json", "-")
+        self.assertEqual(list(json.loads(result.stdout)), RENDER_KEYS)
+
+    def test_debug_views_differ(self):
+        pictures = {view: self.render("--view", view) for view in ("final", "albedo", "normal", "roughness", "substance", "depth", "position")}
+        self.assertEqual(len(set(pictures.values())), len(pictures))
+
+    def test_options_change_the_picture(self):
+        plain = self.render("--exposure", "2")
+        for more in (["--exposure", "4"], ["--exposure", "2", "--camera", "far"], ["--exposure", "2", "--camera", "1"], ["--exposure", "2", "--fov", "30"],
+                     ["--exposure", "2", "--eye", "1,1,4", "--target", "0,0,0"], ["--exposure", "2", "--tonemap", "aces"]):
+            self.assertNotEqual(plain, self.render(*more), more)
+        self.assertEqual(plain, self.render("--exposure", "2", "--camera", "0"))
+        self.assertEqual(plain, self.render("--exposure", "2", "--threads", "1"))
+
+    def test_closed_standard_output(self):
+        reader, writer = os.pipe()
+        os.close(reader)
+        result = subprocess.run([BURNISH, "render", self.scene, "--size", "16x16", "-o", self.out / "a.png"], stdout=writer, stderr=subprocess.PIPE, text=True, timeout=60)
+        os.close(writer)
+        self.assertEqual(result.returncode, 1)
+        self.assertTrue((self.out / "a.png").exists())
+
+    def test_interrupt_leaves_nothing_half_written(self):
+        rounds = 60 if os.environ.get("BURNISH_LONG") == "1" else 8
+        for i in range(rounds):
+            child = subprocess.Popen([BURNISH, "render", self.scene, "--size", "512x512", "-o", self.out / "a.png", "--json", self.out / "a.json", "--frames", "1"],
+                                     stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+            time.sleep(0.9 * i / rounds)
+            child.send_signal(signal.SIGINT)
+            child.communicate(timeout=60)
+            self.assertIn(child.returncode, (-signal.SIGINT, 0))
+            left = sorted(p.name for p in self.out.iterdir())
+            self.assertLessEqual(set(left), {"a.png", "a.json"}, "a temporary file stayed behind")
+            if "a.png" in left:
+                self.assertEqual((self.out / "a.png").read_bytes()[-8:-4], b"IEND")
+            if "a.json" in left:
+                self.assertEqual(list(json.loads((self.out / "a.json").read_text())), RENDER_KEYS)
+            for name in left:
+                (self.out / name).unlink()
+
+    def test_interrupt_ends_a_long_run_at_once(self):
+        child = subprocess.Popen([BURNISH, "render", self.scene, "-o", self.out / "a.png", "--frames", "100000"], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        time.sleep(3)
+        begin = time.monotonic()
+        child.send_signal(signal.SIGINT)
+        _, errors = child.communicate(timeout=60)
+        self.assertEqual(child.returncode, -signal.SIGINT, errors)
+        self.assertLess(time.monotonic() - begin, 2)
+        self.assertEqual(list(self.out.iterdir()), [])
+        self.assertRegex(errors, re.compile(r"^burnish: rendering \d+/100000 \(\d+ s\)$", re.M))
+
+
+class Sample(Program):
+    def test_fps_sample(self):
+        self.good("render", "fps", "--camera", "hero", "--size", "160x90", "-o", self.out / "fps.png")
+        self.assertIn("hero", self.good("inspect", "fps").stdout)
+
+
+if __name__ == "__main__":
+    BURNISH = sys.argv.pop(1)
+    unittest.main(argv=sys.argv, verbosity=2)
