@@ -8,6 +8,9 @@
 
 namespace burnish::gl {
 
+/// How many of each indexed piece the table covers: what the engine may use.
+constexpr GLuint kStateUnits = 32, kStateImages = 8, kStateBufferBindings = 16, kStateStorageBindings = 8, kStateDrawBuffers = 8, kStateViewports = 16;
+
 /// Up to six numbers; doubles hold names, enums, offsets and floats exactly.
 using StateValue = std::array<double, 6>;
 
@@ -20,7 +23,7 @@ enum class StateObject : std::uint8_t {
 struct StateEntry {
   std::string name;  ///< "blend equation 3", "texture 2D unit 17"
   StateObject object = StateObject::None;
-  std::optional<StateValue> initial;  ///< GL's default; empty: depends on the window (viewport, scissor box) and is left alone by setDefaults
+  std::optional<StateValue> initial;  ///< GL's default; empty: depends on the window (viewport, scissor box) or on the host (debug groups) and is left alone by setDefaults
   StateValue other{};                 ///< another legal value, for tests; with an object, value[0] is to be replaced by a name
   std::function<StateValue(const GladGLContext&)> get;  ///< may change the active texture unit, nothing else
   std::function<void(const GladGLContext&, const StateValue&)> set;  ///< the same
@@ -33,7 +36,7 @@ const std::vector<StateEntry>& stateTable();
 using StateSnapshot = std::vector<StateValue>;  ///< in the order of stateTable()
 StateSnapshot captureState(const Device& device);
 void restoreState(const Device& device, const StateSnapshot& snapshot);
-/// Everything at GL's defaults with no engine object bound (HostState::Declared, and the state every frame starts from). About 200 calls, no query.
+/// Everything at GL's defaults with no engine object bound (HostState::Declared, and the state every frame starts from). About 250 calls.
 void setDefaults(const Device& device);
 
 /// Saves on construction and then calls setDefaults; restores on destruction. Not covered, because GL gives no way to put it back: a query, conditional

@@ -1,0 +1,36 @@
+// Saving, restoring and resetting; the pieces themselves are in host_state_table.cpp.
+#include "gl/host_state.h"
+
+namespace burnish::gl {
+
+StateSnapshot captureState(const Device& device) {
+  const auto& table = stateTable();
+  StateSnapshot snapshot;
+  snapshot.reserve(table.size());
+  for (const StateEntry& e : table) snapshot.push_back(e.get(device.gl));
+  // Reading the units moves the active one; the table's first entry is it.
+  table.front().set(device.gl, snapshot.front());
+  return snapshot;
+}
+
+void restoreState(const Device& device, const StateSnapshot& snapshot) {
+  const auto& table = stateTable();
+  for (std::size_t i = table.size(); i-- > 0;) table[i].set(device.gl, snapshot[i]);
+}
+
+void setDefaults(const Device& device) {
+  const GladGLContext& gl = device.gl;
+  gl.BindTextures(0, kStateUnits, nullptr);
+  gl.BindSamplers(0, kStateUnits, nullptr);
+  gl.BindImageTextures(0, kStateImages, nullptr);
+  gl.BindBuffersBase(GL_UNIFORM_BUFFER, 0, kStateBufferBindings, nullptr);
+  gl.BindBuffersBase(GL_SHADER_STORAGE_BUFFER, 0, kStateStorageBindings, nullptr);
+  const auto& table = stateTable();
+  for (std::size_t i = table.size(); i-- > 0;)
+    if (table[i].initial && !table[i].bulk) table[i].set(gl, *table[i].initial);
+}
+
+HostStateGuard::HostStateGuard(const Device& device) : device_(device), saved_(captureState(device)) { setDefaults(device); }
+HostStateGuard::~HostStateGuard() { restoreState(device_, saved_); }
+
+}  // namespace burnish::gl
