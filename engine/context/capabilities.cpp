@@ -75,6 +75,12 @@ void readExtensions(const Reader& gl, Capabilities& caps) {
   caps.programBinary = gl.integer(GL_NUM_PROGRAM_BINARY_FORMATS) > 0;
 }
 
+/// Not needed: extensions, and the robust getters (glGetnTexImage...). Mesa's libglapi lists the latter nowhere and hands out one of 256 spare slots for each
+/// unknown name; GLVND's EGL takes all of those, so OSMesa in the same process is left without them.
+bool isOptional(std::string_view name) {
+  return name.ends_with("ARB") || name.ends_with("EXT") || name.ends_with("KHR") || name.starts_with("glGetn");
+}
+
 /// Core functions up to 4.5 that the driver has no address for. glad's loader asks for every one of them by name, so the list is the registry's own.
 std::string missingFunctions(const ProcAddress& get) {
   struct Asked {
@@ -84,9 +90,7 @@ std::string missingFunctions(const ProcAddress& get) {
   const auto load = [](void* user, const char* name) {
     auto& a = *static_cast<Asked*>(user);
     const auto address = reinterpret_cast<GLADapiproc>(a.get(name));
-    const std::string_view text = name;
-    const bool core = !text.ends_with("ARB") && !text.ends_with("EXT") && !text.ends_with("KHR");  // extensions are optional
-    if (!address && core) a.missing += (a.missing.empty() ? "" : ", ") + std::string(name);
+    if (!address && !isOptional(name)) a.missing += (a.missing.empty() ? "" : ", ") + std::string(name);
     return address;
   };
   GladGLContext table{};

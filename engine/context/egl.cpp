@@ -87,6 +87,7 @@ class EglContextOf final : public Context {
     api_.destroyContext(display_, context_);
   }
   Result<void> makeCurrent() override {
+    release();  // EGL skips the work when it thinks that the context is current, which another library (OSMesa) may have changed behind its back
     api_.bindApi(EGL_OPENGL_API);  // per thread
     if (!api_.makeCurrent(display_, surface_, surface_, context_))
       return fail("EGL", fmt::format("the context cannot be made current (EGL error {:#x})", api_.getError()), "release it on the thread that has it");

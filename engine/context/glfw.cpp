@@ -53,6 +53,7 @@ class GlfwContextOf final : public Context {
     glfwDestroyWindow(window_);
   }
   Result<void> makeCurrent() override {
+    release();  // as in egl.cpp: GLX and EGL skip the work when they think that the context is current
     glfwGetError(nullptr);
     glfwMakeContextCurrent(window_);
     if (glfwGetCurrentContext() != window_) return fail("GLFW", "the context cannot be made current: " + glfwProblem(), "release it on the thread that has it");

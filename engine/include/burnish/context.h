@@ -22,7 +22,9 @@ struct ContextOptions {
   const char* title = "burnish";
 };
 
-/// A context that the engine opened. Current on one thread at a time.
+/// A context that the engine opened. Current on one thread at a time. Several may live in one process, one current on each thread.
+/// Contexts of different backends do not know of each other: before one is made current (create() does it), release() the other on that thread.
+/// Glfw: create, present and destroy on the process's main thread, as GLFW demands; GLFW stays initialised while a window lives, longer if the host did it.
 class BURNISH_API Context {
  public:
   /// Opens it and makes it current on this thread. Errors name the library or feature that is missing and what was found.
