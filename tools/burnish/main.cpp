@@ -1,6 +1,8 @@
 // burnish: the engine's program. Argument parsing and printing only; the work is in the library.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "commands.h"
 #include "messages.h"
 #include "output.h"
@@ -8,6 +10,18 @@
 using namespace cli;
 
 namespace {
+
+/// CLI11's help with whole commands in the usage line, and without what the errors say better (REQUIRED, Needs, Excludes, ranges).
+class HelpText : public CLI::Formatter {
+ public:
+  std::string make_usage(const CLI::App* app, std::string name) const override {
+    return CLI::Formatter::make_usage(app, app->get_parent() ? "burnish " + name : name);
+  }
+  std::string make_option_opts(const CLI::Option* option) const override {
+    const std::string type = option->get_type_name();
+    return type.empty() ? "" : " " + type.substr(0, type.find(':'));
+  }
+};
 
 int usageError(const std::string& text, const CLI::App& app) {
   fmt::print(stderr, "burnish: {}: see '{} --help'\n", shown(text), app.get_parent() ? "burnish " + app.get_name() : "burnish");
@@ -40,6 +54,7 @@ std::string describe(const CLI::ParseError& error, const CLI::App& program, cons
 int runProgram(int argc, char** argv) {
   CLI::App program("A compact deferred renderer that shows what its approximations cost.", "burnish");
   program.set_version_flag("--version", "burnish " BURNISH_VERSION);
+  program.formatter(std::make_shared<HelpText>());
   program.require_subcommand(1);
   program.failure_message(CLI::FailureMessage::simple);
   const std::vector<Command> commands = {addRender(program), addPlan(program), addInspect(program), addDoctor(program)};
