@@ -28,8 +28,8 @@ Result<std::vector<std::byte>> readFileInside(const std::filesystem::path& folde
 /// Writes under a temporary name in the same folder, flushes to disk, renames. On any error (full disk, no right to write,
 /// RLIMIT_FSIZE) the temporary file is removed and an old file stays intact. A new file's mode follows the umask, an old one's
 /// is kept. A symbolic link is followed: its target is replaced, not the link. What is not a regular file (/dev/stdout, a pipe,
-/// /dev/null) is written straight. Not even SIGKILL leaves a half-written file; where the file system has O_TMPFILE (ext4,
-/// xfs, btrfs, tmpfs), nor a temporary one.
+/// /dev/null) is written straight. Not even SIGKILL leaves a half-written file under the name; where the file system has
+/// O_TMPFILE (ext4, xfs, btrfs, tmpfs) it leaves a temporary one only in the instant between naming and renaming it.
 Result<void> writeFileAtomic(const std::filesystem::path& file, std::span<const std::byte> bytes);
 
 }  // namespace burnish::core
