@@ -1,0 +1,92 @@
+// The light of the surroundings from a lat-long picture: linear floats, finite, and small enough for half-float targets.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstring>
+#include <glm/gtc/packing.hpp>
+
+#include "core/file.h"
+#include "material/srgb.h"
+#include "scene/load.h"
+
+namespace burnish {
+namespace scene {
+namespace {
+
+/// The linear value of one channel; 8 and 16 bits are taken for sRGB.
+float linearAt(const Image& image, std::size_t i) {
+  std::uint16_t bits = 0;
+  if (image.type == PixelType::U16 || image.type == PixelType::F16) std::memcpy(&bits, image.data.data() + 2 * i, 2);
+  switch (image.type) {
+    case PixelType::U8: return material::srgbToLinear()[image.u8()[i]];
+    case PixelType::U16: {
+      const float c = float(bits) / 65535;
+      return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f);
+    }
+    case PixelType::F16: return glm::unpackHalf1x16(bits);
+    case PixelType::F32: return image.f32()[i];
+  }
+  return 0;
+}
+
+struct Mended {
+  std::size_t notANumber = 0, negative = 0, tooLarge = 0;
+  float largest = 0;  ///< before clamping, finite ones
+  [[nodiscard]] std::size_t count() const { return notANumber + negative + tooLarge; }
+};
+
+float mend(float v, Mended& mended) {
+  if (std::isnan(v)) {
+    ++mended.notANumber;
+    return 0;
+  }
+  if (v < 0) {
+    ++mended.negative;
+    return 0;
+  }
+  if (v > kLargestHalf) {
+    ++mended.tooLarge;
+    if (std::isfinite(v)) mended.largest = std::max(mended.largest, v);
+    return kLargestHalf;
+  }
+  return v;
+}
+
+}  // namespace
+
+Image environmentMap(const Image& image, const std::string& place, Report& report) {
+  Image out = makeImage(image.width, image.height, 3, PixelType::F32);
+  const std::size_t pixels = image.pixelCount();
+  const std::size_t channels = std::size_t(image.channels);
+  Mended mended;
+  float* to = out.f32();
+  for (std::size_t i = 0; i < pixels; ++i)
+    for (std::size_t c = 0; c < 3; ++c) *to++ = mend(linearAt(image, i * channels + (channels >= 3 ? c : 0)), mended);
+  if (mended.count())
+    report.warn(place, fmt::format("{} values were mended: {} not a number and {} negative became 0, {} above {} (largest {:g}) were held there", mended.count(),
+                                   mended.notANumber, mended.negative, mended.tooLarge, kLargestHalf, mended.largest));
+  return out;
+}
+
+Result<void> readEnvironment(Scene& scene, const std::filesystem::path& file, const LoadOptions& options, ImageDecoder& decoder, Report& report) {
+  auto bytes = core::readFile(file, options.maxFileBytes);
+  if (!bytes) return fail(bytes.error());
+  auto image = decoder.decode(*bytes, file.filename().string());
+  if (!image) return fail(image.error());
+  if (image->width < 1 || image->height < 1 || image->channels < 1) return fail(file.string(), "the picture has no pixels", "give a lat-long picture (HDR or EXR)");
+  if (image->width != 2 * image->height)
+    report.warn(file.string(), fmt::format("is {}x{}, not twice as wide as high: it is taken for a lat-long picture all the same", image->width, image->height));
+  scene.environment.map = environmentMap(*image, file.string(), report);
+  ++scene.environment.revision;
+  return {};
+}
+
+}  // namespace scene
+
+Result<void> loadEnvironment(Scene& scene, const std::filesystem::path& file, const LoadOptions& options, Report& report) {
+  std::unique_ptr<ImageDecoder> own;
+  if (!options.decoder) own = makeDecoderPool();
+  return scene::readEnvironment(scene, file, options, options.decoder ? *options.decoder : *own, report);
+}
+
+}  // namespace burnish
