@@ -25,6 +25,8 @@ def check(condition, text):
 def main():
     cmake, build, compiler = sys.argv[1:4]
     source = pathlib.Path(__file__).resolve().parent / "consumer"
+    example = (source / "consumer.cpp").read_text().split("// [readme]\n")[1].split("// [/readme]")[0]
+    check(example in (source.parents[2] / "README.md").read_text(), "README's example differs from consumer.cpp")
     with tempfile.TemporaryDirectory() as folder:
         prefix, consumer = pathlib.Path(folder, "prefix"), pathlib.Path(folder, "build")
         run(cmake, "--install", build, "--prefix", prefix, stdout=subprocess.DEVNULL)
