@@ -1,5 +1,6 @@
 #include "material/merge.h"
 
+#include "image/convert.h"
 #include "material/srgb.h"
 
 namespace burnish::material {
@@ -14,7 +15,7 @@ ConversionError difference(const Reflectance& a, const Reflectance& b) { return 
 glm::vec3 linearAt(const Image* rgba, std::size_t pixel) {
   if (!rgba) return glm::vec3(1);
   const std::uint8_t* p = rgba->u8() + 4 * pixel;
-  const auto& linear = srgbToLinear();
+  const auto& linear = image::srgbToLinearTable();
   return {linear[p[0]], linear[p[1]], linear[p[2]]};
 }
 

@@ -3,6 +3,7 @@
 // Tokuyoshi and Kaplanyan 2019). σ² comes from the mean length r by the von Mises-Fisher fit κ = r (3 - r²) / (1 - r²) (Banerjee et al. 2005), σ² = 1/κ.
 #include "material/mips.h"
 
+#include "image/convert.h"
 #include "material/codec.h"
 #include "material/resample.h"
 #include "material/srgb.h"
@@ -17,7 +18,7 @@ using Bytes = std::uint8_t*;
 // Map A: F0 and diffuse are linear in (base, m, albedo, m · albedo), so these eight floats are what is averaged.
 struct AlbedoSubstanceFilter {
   static constexpr int kFloats = 8;
-  const std::array<float, 256>& linear = srgbToLinear();
+  const std::array<float, 256>& linear = image::srgbToLinearTable();
   const std::array<CodeEntry, 256>& code = codeTable();
   const SrgbEncoder& encode = linearToSrgb();
 
@@ -85,7 +86,7 @@ struct NormalRoughnessFilter {
 
 struct EmissiveFilter {
   static constexpr int kFloats = 4;
-  const std::array<float, 256>& linear = srgbToLinear();
+  const std::array<float, 256>& linear = image::srgbToLinearTable();
   const SrgbEncoder& encode = linearToSrgb();
   void unpack(ByteRow in, float* out, int n, int channels) const {
     for (int i = 0; i < n; ++i, in += channels, out += kFloats) {

@@ -1,7 +1,7 @@
 // Mip chains of the material maps: each kind is averaged in the quantities that light sees, not in the ones that are stored.
 #pragma once
 #include <burnish/image.h>
-#include <burnish/scene.h>
+#include <burnish/material.h>
 
 #include <vector>
 
@@ -12,7 +12,7 @@ namespace burnish::material {
 ///  - AlbedoSubstance: F0 and diffuse, encoded again (docs/shading.md, section 1); F0 + diffuse is kept.
 ///  - NormalRoughness: unit normals; alpha² is averaged and widened by the normals' spread, the stored normal is unit length again.
 ///  - Emissive: linear light. MetalRough: alpha² of G, linear B. Occlusion: linear. A fourth channel of Emissive and MetalRough is averaged linearly.
-/// `level0` must be U8 with the channels that scene.h names for the kind; anything else comes back as a single level.
+/// `level0` must be U8 with the channels that <burnish/scene.h> names for the kind; anything else comes back as a single level.
 std::vector<Image> buildMips(MapKind kind, Image level0);
 
 /// Added to alpha² for normals whose average has length `length` in [0,1]: 2 σ², σ² = 1/κ of the von Mises-Fisher lobe with that mean length.

@@ -7,15 +7,6 @@ namespace {
 double decode(double code) { return code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4); }
 }  // namespace
 
-const std::array<float, 256>& srgbToLinear() {
-  static const std::array<float, 256> table = [] {
-    std::array<float, 256> t;
-    for (int i = 0; i < 256; ++i) t[i] = float(decode(i / 255.0));
-    return t;
-  }();
-  return table;
-}
-
 SrgbEncoder::SrgbEncoder() {
   // Nearest in the encoded value: the border between i and i + 1 is the code i + 0.5.
   for (int i = 0; i < 256; ++i) threshold_[i] = i < 255 ? float(decode((i + 0.5) / 255)) : 2.0f;

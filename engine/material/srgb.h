@@ -1,13 +1,9 @@
-// sRGB (IEC 61966-2-1) in both directions, exact for 8 bits, by tables.
+// Linear light to 8-bit sRGB, inlined for the map builders' inner loops (image/convert.h has the other direction's table).
 #pragma once
 #include <array>
 #include <cstdint>
-#include <vector>
 
 namespace burnish::material {
-
-/// 8-bit sRGB code to linear 0..1.
-const std::array<float, 256>& srgbToLinear();
 
 /// Linear 0..1 to the nearest 8-bit sRGB code. Values outside are clamped; NaN gives 0.
 class SrgbEncoder {

@@ -1,5 +1,5 @@
 // glTF materials to Burnish's: two or three merged maps each, shared between materials that ask for the same merge.
-// It stands in scene/ and not in material/ because it needs asset/, which lies on material/'s layer.
+// It stands in scene/, above material/, because what it makes are rows of a Scene.
 #pragma once
 #include <functional>
 #include <optional>

@@ -2,31 +2,24 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstring>
-#include <glm/gtc/packing.hpp>
 
 #include "core/file.h"
-#include "material/srgb.h"
+#include "image/convert.h"
 #include "scene/load.h"
 
 namespace burnish {
 namespace scene {
 namespace {
 
-/// The linear value of one channel; 8 and 16 bits are taken for sRGB.
-float linearAt(const Image& image, std::size_t i) {
-  std::uint16_t bits = 0;
-  if (image.type == PixelType::U16 || image.type == PixelType::F16) std::memcpy(&bits, image.data.data() + 2 * i, 2);
-  switch (image.type) {
-    case PixelType::U8: return material::srgbToLinear()[image.u8()[i]];
-    case PixelType::U16: {
-      const float c = float(bits) / 65535;
-      return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f);
+/// The picture as F32 in linear light; 8 and 16 bits are taken for sRGB.
+Image linear(const Image& image) {
+  Image out = image::toF32(image, image.type == PixelType::U8);
+  if (image.type == PixelType::U16)
+    for (std::size_t i = 0; i < out.pixelCount() * std::size_t(out.channels); ++i) {
+      float& c = out.f32()[i];
+      c = c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f);
     }
-    case PixelType::F16: return glm::unpackHalf1x16(bits);
-    case PixelType::F32: return image.f32()[i];
-  }
-  return 0;
+  return out;
 }
 
 struct Mended {
@@ -44,10 +37,10 @@ float mend(float v, Mended& mended) {
     ++mended.negative;
     return 0;
   }
-  if (v > kLargestHalf) {
+  if (v > image::kHalfMax) {
     ++mended.tooLarge;
     if (std::isfinite(v)) mended.largest = std::max(mended.largest, v);
-    return kLargestHalf;
+    return image::kHalfMax;
   }
   return v;
 }
@@ -59,12 +52,13 @@ Image environmentMap(const Image& image, const std::string& place, Report& repor
   const std::size_t pixels = image.pixelCount();
   const std::size_t channels = std::size_t(image.channels);
   Mended mended;
+  const Image source = linear(image);
   float* to = out.f32();
   for (std::size_t i = 0; i < pixels; ++i)
-    for (std::size_t c = 0; c < 3; ++c) *to++ = mend(linearAt(image, i * channels + (channels >= 3 ? c : 0)), mended);
+    for (std::size_t c = 0; c < 3; ++c) *to++ = mend(source.f32()[i * channels + (channels >= 3 ? c : 0)], mended);
   if (mended.count())
     report.warn(place, fmt::format("{} values were mended: {} not a number and {} negative became 0, {} above {} (largest {:g}) were held there", mended.count(),
-                                   mended.notANumber, mended.negative, mended.tooLarge, kLargestHalf, mended.largest));
+                                   mended.notANumber, mended.negative, mended.tooLarge, image::kHalfMax, mended.largest));
   return out;
 }
 

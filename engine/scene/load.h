@@ -8,8 +8,6 @@
 
 namespace burnish::scene {
 
-inline constexpr float kLargestHalf = 65504;  ///< the largest finite half float
-
 /// Checks LoadOptions::seconds between the steps of a load.
 class Deadline {
  public:

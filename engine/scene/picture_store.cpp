@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "material/pixels.h"
+#include "scene/enlarge.h"
 
 namespace burnish::scene {
 namespace {
@@ -56,7 +57,7 @@ const Image* PictureStore::sized(const Slot& slot, glm::ivec2 size, bool srgb) {
   const Image& own = rgba(slot);
   if (own.width == size.x && own.height == size.y) return &own;
   const auto [at, isNew] = enlarged_.try_emplace({slot.picture, size.x, size.y, srgb, int(slot.sampler.wrapU), int(slot.sampler.wrapV)});
-  if (isNew) at->second = material::resized(own, size.x, size.y, srgb, slot.sampler.wrapU, slot.sampler.wrapV);
+  if (isNew) at->second = enlarged(own, size.x, size.y, srgb, slot.sampler.wrapU, slot.sampler.wrapV);
   return &at->second;
 }
 
