@@ -101,6 +101,7 @@ class Builder {
   void target(std::string name, std::string format, int bytes, int w, int h) {
     plan_.targets.push_back({std::move(name), std::move(format), w, h, std::uint64_t(bytes) * std::uint64_t(w) * std::uint64_t(h)});
   }
+  [[nodiscard]] bool reduceDepth() const { return options_.tileBounds == TileBounds::Reduction || (options_.tileBounds == TileBounds::Automatic && !caps_.software); }
   [[nodiscard]] bool anyView(bool orthographic) const {
     return std::any_of(views_.begin(), views_.end(), [&](const View& v) { return v.orthographic == orthographic; });
   }
@@ -172,7 +173,7 @@ void Builder::addTargets() {
   }
   if (automatic_) target("exposure", "RG32F", 8, 1, 1);
   const bool tiles = geometry_ && ((final_ && lit_) || lightsView_);
-  if (tiles && !caps_.software) target("tile_depth", "RG32F", 8, (w + 15) / 16, (h + 15) / 16);
+  if (tiles && reduceDepth()) target("tile_depth", "RG32F", 8, (w + 15) / 16, (h + 15) / 16);
 }
 
 void Builder::addGeometry() {
@@ -189,7 +190,7 @@ void Builder::addLighting() {
   if (!geometry_ || !(lit_ || lightsView_)) return;
   const bool local = needs_.localLights > 0;
   PassPlan bounds{"tiles", {"depth", "lights"}, {"light lists"}, {}};
-  if (!caps_.software) {
+  if (reduceDepth()) {
     bounds.writes.push_back("tile_depth");
     bounds.programs.push_back(screen("tile_depth", "lighting/tile_depth.frag", {}));
   }

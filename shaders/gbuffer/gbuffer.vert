@@ -31,6 +31,6 @@ void main() {
   textureUv0 = uv0;
 #if GENERAL
   textureUv1 = uv1;
-  vertexColor = color;
+  vertexColor = draw.ids.y != 0 ? color : vec4(1.0);
 #endif
 }

@@ -32,9 +32,7 @@
 #define ATTRIBUTE_UV1 4
 #define ATTRIBUTE_COLOR 5
 
-#define MAX_DIRECTIONAL 8
-#define LIGHT_TEXELS 4
-#define TILE_SIZE 16
+#include "interface/limits.h"
 
 struct FrameData {
   mat4 viewProjection;   // camera-relative world to clip, depth reversed in [0,1]
@@ -55,7 +53,7 @@ struct FrameData {
 struct DrawData {
   vec4 model[3];    // rows: object to camera-relative world
   vec4 normal[3];   // rows of the cofactor matrix times the sign of the determinant; xyz
-  ivec4 ids;        // x instance index + 1
+  ivec4 ids;        // x instance index + 1, y 1 when the mesh has vertex colours
 };
 
 struct MaterialData {

@@ -87,5 +87,6 @@ void main() {
 #endif
   sum += surroundings(m, occlusion);
 #endif
-  outRadiance = vec4(min(sum, vec3(frame.exposure.w)), 1.0);
+  // Nothing was drawn where z is 0: black there, for a background to replace.
+  outRadiance = vec4(z > 0.0 ? min(sum, vec3(frame.exposure.w)) : vec3(0.0), 1.0);
 }

@@ -1,4 +1,4 @@
-// Debug views of the G-buffer. Definitions: VIEW (1 albedo, 2 substance, 3 normal, 4 roughness, 5 depth, 6 position, 7 occlusion, 9 nonfinite), ORTHOGRAPHIC, OCCLUSION.
+// Debug views of the G-buffer. Definitions: VIEW (1 albedo, 2 substance, 3 normal, 4 roughness, 5 depth, 6 position, 7 occlusion, 9 nonfinite), ORTHOGRAPHIC, OCCLUSION, GEOMETRY (0: nothing was drawn).
 #include "shading/bridge.h"
 #include "shading/constants.h"
 #include "shading/roughness.h"
@@ -8,7 +8,9 @@
 #include "shading/tonemap.h"
 #include "interface/layout.h"
 #include "lighting/surface.glsl"
+#if VIEW == 9
 layout(binding = UNIT_LIGHT_BUFFER) uniform sampler2D lightBuffer;
+#endif
 layout(location = 0) out vec4 outColor;
 
 void main() {
@@ -19,7 +21,7 @@ void main() {
   vec3 toEye;
   vec3 p = positionAt(gl_FragCoord.xy - vec2(frame.viewport.xy), max(z, 1e-30), toEye);
   vec3 c = vec3(0.0);
-  if (z > 0.0) {
+  if (GEOMETRY == 1 && z > 0.0) {
 #if VIEW == 1
     c = a.rgb;
 #elif VIEW == 2

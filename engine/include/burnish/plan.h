@@ -67,12 +67,20 @@ struct FramePlan {
   [[nodiscard]] BURNISH_API const TargetPlan* target(std::string_view name) const;
 };
 
+/// How light culling learns the depth range of each tile. Both give the same lists.
+enum class TileBounds : std::uint8_t {
+  Automatic,  ///< Readback on software renderers, Reduction elsewhere
+  Readback,   ///< the depth buffer is read back and reduced on the CPU
+  Reduction,  ///< a pass reduces it; one texel a tile is read back
+};
+
 struct PlanOptions {
   glm::ivec2 size{0};  ///< of the target, pixels
   Output output = Output::Display;
   DebugView debugView = DebugView::Final;
   bool hostDepthIn = false, hostDepthOut = false, hostDraw = false;
   bool countNonfinite = false;
+  TileBounds tileBounds = TileBounds::Automatic;
 };
 BURNISH_API FramePlan makePlan(const Scene& scene, std::span<const View> views, const Quality& quality, const Capabilities& caps, const PlanOptions& options);
 

@@ -11,13 +11,6 @@ enum class HostState : std::uint8_t {
   DontCare,  ///< nothing is promised
 };
 
-/// How light culling learns the depth range of each tile. Both give the same lists.
-enum class TileBounds : std::uint8_t {
-  Automatic,  ///< Readback on software renderers, Reduction elsewhere
-  Readback,   ///< the depth buffer is read back and reduced on the CPU
-  Reduction,  ///< a pass reduces it; one texel a tile is read back
-};
-
 struct RendererOptions {
   HostState hostState = HostState::DontCare;
   std::uint64_t uploadBytesPerFrame = 0;     ///< 0: no limit; else meshes and textures arrive over several frames, nearest first

@@ -1,0 +1,119 @@
+#include "gbuffer/geometry_pass.h"
+
+#include <fmt/format.h>
+
+namespace burnish::gbuffer {
+namespace {
+
+using gpu_scene::FrameContext;
+
+const Material& materialOf(const FrameContext& c, const scene::VisibleInstance& v) {
+  static const Material kDefault;
+  const Material* m = c.scene.materials.get(v.instance->material);
+  return m ? *m : kDefault;
+}
+
+// Sets face culling and winding only when they change.
+class RasterState {
+ public:
+  explicit RasterState(const GladGLContext& gl) : gl_(gl) {
+    gl_.Enable(GL_CULL_FACE);
+    gl_.FrontFace(GL_CCW);
+  }
+  void set(bool twoSided, bool flipped) {
+    if (twoSided != twoSided_) twoSided ? gl_.Disable(GL_CULL_FACE) : gl_.Enable(GL_CULL_FACE);
+    if (flipped != flipped_) gl_.FrontFace(flipped ? GL_CW : GL_CCW);
+    twoSided_ = twoSided;
+    flipped_ = flipped;
+  }
+
+ private:
+  const GladGLContext& gl_;
+  bool twoSided_ = false, flipped_ = false;
+};
+
+// Draws every visible instance that `wants`, with the pass's program for its variant; `before` runs once the instance is bound.
+template <class Wants, class Before>
+Result<void> drawInstances(FrameContext& c, plan::GeometryPass pass, bool occlusionTarget, Wants&& wants, Before&& before) {
+  const GladGLContext& gl = c.device.gl;
+  RasterState raster(gl);
+  const gl::Program* used = nullptr;
+  const gl::VertexArray* array = nullptr;
+  // At most eight variants: looked up once each.
+  std::array<const gl::Program*, 8> programs{};
+  for (std::size_t i = 0; i < c.visible.size(); ++i) {
+    const scene::VisibleInstance& v = c.visible[i];
+    const Material& material = materialOf(c, v);
+    if (!wants(material)) continue;
+    plan::GeometryVariant variant = plan::variantOf(material, *v.mesh);
+    if (!occlusionTarget) variant.occlusionMap = false;
+    const std::size_t key = std::size_t(variant.general) + 2 * std::size_t(variant.alphaTest) + 4 * std::size_t(variant.occlusionMap);
+    if (!programs[key]) {
+      const std::string name = plan::geometryProgram(pass, variant, occlusionTarget).name;
+      programs[key] = c.programs.find(name);
+      if (!programs[key]) return fail("frame plan", fmt::format("program '{}' is not in it", name), "report this as a fault of the engine");
+    }
+    const gpu_scene::GpuMesh* mesh = nullptr;
+    if (!gpu_scene::bindInstance(c, i, variant.general, mesh)) continue;
+    if (programs[key] != used) (used = programs[key])->use();
+    if (const gl::VertexArray* wanted = variant.general ? &c.buffers.general : &c.buffers.plain; wanted != array) (array = wanted)->bind();
+    raster.set(material.twoSided, v.flipped);
+    before(material);
+    gl.DrawElements(GL_TRIANGLES, mesh->indexCount, mesh->indexType, nullptr);
+    if (pass == plan::GeometryPass::GBuffer) {
+      ++c.stats.draws;
+      c.stats.triangles += std::uint64_t(mesh->indexCount) / 3;
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<void> drawGBuffer(FrameContext& c) {
+  const GladGLContext& gl = c.device.gl;
+  const bool occlusion = c.plan.on("baked_occlusion");
+  auto framebuffer = occlusion ? c.targets.framebuffer({"gbuffer_a", "gbuffer_b", "gbuffer_c"}, "depth") : c.targets.framebuffer({"gbuffer_a", "gbuffer_b"}, "depth");
+  if (!framebuffer) return fail(framebuffer.error());
+  gl.BindFramebuffer(GL_FRAMEBUFFER, *framebuffer);
+  c.setViewport();
+  gl.Enable(GL_DEPTH_TEST);
+  gl.DepthMask(GL_TRUE);
+  gl.DepthFunc(GL_GREATER);
+  if (c.plan.on("host_depth_in")) {
+    // All ones is no normal that packNormal makes: it marks the host's pixels. Depth holds the host's already.
+    const float marker[4] = {1, 1, 1, 1};
+    gl.ClearNamedFramebufferfv(*framebuffer, GL_COLOR, 1, marker);
+  } else {
+    const float far = 0;
+    gl.ClearNamedFramebufferfv(*framebuffer, GL_DEPTH, 0, &far);
+  }
+  return drawInstances(c, plan::GeometryPass::GBuffer, occlusion, [](const Material&) { return true; }, [](const Material&) {});
+}
+
+Result<void> drawEmissive(FrameContext& c) {
+  const GladGLContext& gl = c.device.gl;
+  auto framebuffer = c.targets.framebuffer({"light"}, "depth");
+  if (!framebuffer) return fail(framebuffer.error());
+  gl.BindFramebuffer(GL_FRAMEBUFFER, *framebuffer);
+  c.setViewport();
+  gl.Enable(GL_DEPTH_TEST);
+  gl.DepthMask(GL_FALSE);
+  gl.DepthFunc(GL_EQUAL);
+  gl.Enable(GL_BLEND);
+  auto result = drawInstances(c, plan::GeometryPass::Emissive, false, [](const Material& m) { return plan::emits(m); },
+                              [&gl](const Material& m) { gl.BlendFunc(GL_ONE, m.unlit ? GL_ZERO : GL_ONE); });
+  gl.Disable(GL_BLEND);
+  gl.DepthMask(GL_TRUE);
+  return result;
+}
+
+Result<void> drawPick(FrameContext& c) {
+  const GladGLContext& gl = c.device.gl;
+  gl.Enable(GL_DEPTH_TEST);
+  gl.DepthMask(GL_TRUE);
+  gl.DepthFunc(GL_GREATER);
+  return drawInstances(c, plan::GeometryPass::Pick, false, [](const Material&) { return true; }, [](const Material&) {});
+}
+
+}  // namespace burnish::gbuffer

@@ -1,0 +1,186 @@
+#include "gpu_scene/frame.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace burnish::gpu_scene {
+
+Result<void> TargetPool::prepare(const FramePlan& plan) {
+  if (plan.targets == plan_) return {};
+  framebuffers_.clear();
+  std::map<std::string, gl::Texture, std::less<>> next;
+  for (const TargetPlan& t : plan.targets) {
+    const auto old = std::find(plan_.begin(), plan_.end(), t);
+    if (old != plan_.end() && textures_.contains(t.name)) {
+      next[t.name] = std::move(textures_[t.name]);
+      continue;
+    }
+    const gl::FormatInfo* format = gl::formatInfo(t.format);
+    if (!format) return fail(fmt::format("target '{}'", t.name), fmt::format("unknown format {}", t.format));
+    auto texture = gl::Texture::create(device_, {.format = format->format, .width = t.width, .height = t.height}, t.name);
+    if (!texture) {
+      plan_.clear();
+      return fail(texture.error());
+    }
+    next[t.name] = std::move(*texture);
+  }
+  textures_ = std::move(next);
+  plan_ = plan.targets;
+  return {};
+}
+
+const gl::Texture* TargetPool::texture(std::string_view name) const {
+  const auto found = textures_.find(name);
+  return found == textures_.end() ? nullptr : &found->second;
+}
+
+Result<GLuint> TargetPool::framebuffer(std::initializer_list<std::string_view> colors, std::string_view depth) {
+  std::string key(depth);
+  for (std::string_view c : colors) key += fmt::format("|{}", c);
+  if (const auto found = framebuffers_.find(key); found != framebuffers_.end()) return found->second.id();
+  std::vector<gl::Attachment> attachments;
+  for (std::string_view c : colors)
+    if (const gl::Texture* t = texture(c)) attachments.emplace_back(*t);
+  std::optional<gl::Attachment> depthAttachment;
+  if (const gl::Texture* t = texture(depth)) depthAttachment = *t;
+  auto made = gl::Framebuffer::create(device_, attachments, depthAttachment, key);
+  if (!made) return fail(made.error());
+  const GLuint id = made->id();
+  framebuffers_.emplace(key, std::move(*made));
+  return id;
+}
+
+gl::ProgramSource sourceOf(const ProgramPlan& p) { return {p.name, p.vertex, p.fragment, {}, p.defines}; }
+
+Result<void> ProgramSet::prepare(const FramePlan& plan) {
+  if (plan.programs == plan_) return {};
+  programs_.clear();
+  plan_.clear();
+  for (const ProgramPlan& p : plan.programs) {
+    auto program = cache_.get(sourceOf(p));
+    if (!program) return fail(program.error());
+    programs_[p.name] = *program;
+  }
+  plan_ = plan.programs;
+  return {};
+}
+
+const gl::Program* ProgramSet::find(std::string_view name) const {
+  const auto found = programs_.find(name);
+  return found == programs_.end() ? nullptr : found->second;
+}
+
+Result<FrameBuffers> FrameBuffers::create(gl::Device& device) {
+  FrameBuffers b;
+  const std::size_t align = std::size_t(std::max(device.caps.uniformAlignment, 16));
+  b.drawStride = (sizeof(DrawData) + align - 1) / align * align;
+  auto frame = gl::Buffer::create(device, gl::BufferUse::Stream, sizeof(FrameData), nullptr, "frame data");
+  if (!frame) return fail(frame.error());
+  auto draws = gl::Buffer::create(device, gl::BufferUse::Stream, b.drawStride, nullptr, "draw data");
+  if (!draws) return fail(draws.error());
+  b.frame = std::move(*frame);
+  b.draws = std::move(*draws);
+  const gl::VertexAttribute plain[] = {{ATTRIBUTE_POSITION, 3, GL_FLOAT, false, false, 0, 0},
+                                       {ATTRIBUTE_NORMAL, 4, GL_SHORT, true, false, 12, 0},
+                                       {ATTRIBUTE_TANGENT, 4, GL_SHORT, true, false, 20, 0},
+                                       {ATTRIBUTE_UV0, 2, GL_FLOAT, false, false, 28, 0}};
+  std::vector<gl::VertexAttribute> general(std::begin(plain), std::end(plain));
+  general.push_back({ATTRIBUTE_UV1, 2, GL_FLOAT, false, false, 0, 1});
+  general.push_back({ATTRIBUTE_COLOR, 4, GL_UNSIGNED_SHORT, true, false, 8, 1});
+  b.plain = gl::VertexArray::create(device, plain, {}, 0, "vertices");
+  b.general = gl::VertexArray::create(device, general, {}, 0, "vertices, general");
+  b.none = gl::VertexArray::create(device, {}, {}, 0, "no vertices");
+  return b;
+}
+
+void FrameContext::setViewport() const {
+  const glm::ivec4 v = view.viewport;
+  device.gl.Viewport(v.x, v.y, v.z, v.w);
+  device.gl.Enable(GL_SCISSOR_TEST);
+  device.gl.Scissor(v.x, v.y, v.z, v.w);
+}
+
+Result<void> FrameContext::drawScreen(std::string_view name) const {
+  const gl::Program* program = programs.find(name);
+  if (!program) return fail("frame plan", fmt::format("program '{}' is not in it", name), "report this as a fault of the engine");
+  program->use();
+  buffers.none.bind();
+  device.gl.DrawArrays(GL_TRIANGLES, 0, 3);
+  return {};
+}
+
+namespace {
+
+void fillRays(FrameData& d, const scene::ViewFrame& v) {
+  const glm::dvec3 right = v.axes[0], up = v.axes[1], forward = -v.axes[2];
+  const double w = v.viewport.z, h = v.viewport.w;
+  d.rayX = vec4(glm::vec3(right * (2 * v.tanX / w)), 0);
+  d.rayY = vec4(glm::vec3(up * (2 * v.tanY / h)), 0);
+  d.rayOrigin = vec4(glm::vec3(-right * v.tanX - up * v.tanY + (v.orthographic ? glm::dvec3(0) : forward)), 0);
+  d.forward = vec4(glm::vec3(forward), 0);
+  d.depthParams = vec4(float(v.depthParams.x), float(v.depthParams.y), 0, 0);
+}
+
+}  // namespace
+
+Result<void> uploadFrameData(FrameContext& c, float displayExposure) {
+  FrameData d{};
+  d.viewProjection = glm::mat4(c.view.viewProjection);
+  fillRays(d, c.view);
+  const bool wide = c.plan.target("light") && c.plan.target("light")->format == "RGBA32F";
+  d.exposure = vec4(c.preExposure, 1 / c.preExposure, displayExposure / c.preExposure, wide ? 3e38f : 65000.0f);
+  d.eye = vec4(glm::vec3(c.view.eye), 0);
+  const Environment& e = c.scene.environment;
+  const float scale = std::isfinite(e.scale) ? std::max(e.scale, 0.0f) * c.preExposure : 0;
+  d.background = vec4(e.color * scale, scale);
+  if (c.environment) {
+    d.environment.x = c.environment->lastLevel;
+    for (std::size_t i = 0; i < 9; ++i) d.irradiance[i] = vec4(c.environment->irradiance[i] * scale, 0);
+  }
+  d.viewport = c.view.viewport;
+  for (std::size_t i = 0; i < c.lights.directional.size(); ++i) {
+    d.directional[2 * i] = vec4(c.lights.directional[i].toLight, 0);
+    d.directional[2 * i + 1] = vec4(c.lights.directional[i].illuminance * c.preExposure, 0);
+  }
+  if (auto written = c.buffers.frame.write(std::as_bytes(std::span(&d, 1))); !written) return written;
+  c.buffers.frame.bindBase(GL_UNIFORM_BUFFER, BINDING_FRAME);
+  return {};
+}
+
+Result<void> uploadDraws(FrameContext& c) {
+  std::vector<std::byte> bytes(std::max<std::size_t>(c.visible.size(), 1) * c.buffers.drawStride);
+  for (std::size_t i = 0; i < c.visible.size(); ++i) {
+    const scene::VisibleInstance& v = c.visible[i];
+    DrawData d{};
+    for (int r = 0; r < 3; ++r) {
+      d.model[r] = v.model[r];
+      d.normal[r] = vec4(v.normal[r], 0);
+    }
+    d.ids = {int(v.id.index) + 1, v.mesh->colors.empty() ? 0 : 1, 0, 0};
+    std::memcpy(bytes.data() + i * c.buffers.drawStride, &d, sizeof d);
+  }
+  return c.buffers.draws.write(bytes);
+}
+
+bool bindInstance(FrameContext& c, std::size_t i, bool general, const GpuMesh*& mesh) {
+  const scene::VisibleInstance& v = c.visible[i];
+  mesh = c.gpuScene.mesh(c.scene, v.instance->mesh, c.report);
+  if (!mesh) return false;
+  const GladGLContext& gl = c.device.gl;
+  const gl::VertexArray& array = general ? c.buffers.general : c.buffers.plain;
+  gl.VertexArrayVertexBuffer(array.id(), 0, mesh->vertices.id(), 0, GpuMesh::kStride);
+  // A mesh without extras in a general program: its vertices stand in; DrawData says that there is no colour, and uv set 1 is not asked for.
+  if (general) gl.VertexArrayVertexBuffer(array.id(), 1, mesh->extras ? mesh->extras.id() : mesh->vertices.id(), 0, mesh->extras ? GpuMesh::kExtraStride : GpuMesh::kStride);
+  gl.VertexArrayElementBuffer(array.id(), mesh->indices.id());
+  c.buffers.draws.bindRange(GL_UNIFORM_BUFFER, BINDING_DRAW, i * c.buffers.drawStride, sizeof(DrawData));
+  const MaterialBinding& m = c.gpuScene.material(c.scene, v.instance->material, c.report);
+  c.gpuScene.materials().bindRange(GL_UNIFORM_BUFFER, BINDING_MATERIAL, m.offset, sizeof(MaterialData));
+  gl.BindTextures(0, 5, m.texture.data());
+  gl.BindSamplers(0, 5, m.sampler.data());
+  return true;
+}
+
+}  // namespace burnish::gpu_scene

@@ -1,0 +1,92 @@
+// What the passes of one view share: the plan, its resolved programs and targets, and what is drawn. Passes meet here and nowhere else.
+#pragma once
+#include <burnish/renderer.h>
+
+#include <array>
+#include <map>
+#include <string>
+
+#include "gl/objects.h"
+#include "gl/program.h"
+#include "gpu_scene/gpu_scene.h"
+#include "scene/visibility.h"
+
+namespace burnish::gpu_scene {
+
+/// The textures and framebuffers of a plan's targets; kept between frames while the plan's targets stay the same.
+class TargetPool {
+ public:
+  explicit TargetPool(gl::Device& device) : device_(device) {}
+  /// Allocates what the plan lists and frees the rest.
+  Result<void> prepare(const FramePlan& plan);
+  /// nullptr when the plan has no such target.
+  [[nodiscard]] const gl::Texture* texture(std::string_view name) const;
+  /// A framebuffer of the named targets (colours in order; depth optional), made on first use.
+  Result<GLuint> framebuffer(std::initializer_list<std::string_view> colors, std::string_view depth = {});
+
+ private:
+  gl::Device& device_;
+  std::vector<TargetPlan> plan_;
+  std::map<std::string, gl::Texture, std::less<>> textures_;
+  std::map<std::string, gl::Framebuffer, std::less<>> framebuffers_;
+};
+
+/// The plan's programs, linked.
+class ProgramSet {
+ public:
+  explicit ProgramSet(gl::Device& device, gl::ProgramCache& cache) : device_(device), cache_(cache) {}
+  /// Links what is missing. Errors name program, file and line.
+  Result<void> prepare(const FramePlan& plan);
+  /// The plan's program of that name. Asking for one that the plan does not list is a fault of the engine: it returns nullptr.
+  [[nodiscard]] const gl::Program* find(std::string_view name) const;
+
+ private:
+  gl::Device& device_;
+  gl::ProgramCache& cache_;
+  std::vector<ProgramPlan> plan_;
+  std::map<std::string, const gl::Program*, std::less<>> programs_;
+};
+gl::ProgramSource sourceOf(const ProgramPlan& plan);
+
+/// Buffers that each view fills anew.
+struct FrameBuffers {
+  gl::Buffer frame, draws;
+  gl::VertexArray plain, general, none;
+  std::size_t drawStride = 256;
+  static Result<FrameBuffers> create(gl::Device& device);
+};
+
+struct FrameContext {
+  gl::Device& device;
+  const FramePlan& plan;
+  const ProgramSet& programs;
+  TargetPool& targets;
+  GpuScene& gpuScene;
+  FrameBuffers& buffers;
+  const Scene& scene;
+  const Quality& quality;
+  const scene::ViewFrame& view;
+  const std::vector<scene::VisibleInstance>& visible;
+  const scene::LightSet& lights;
+  const GpuEnvironment* environment = nullptr;
+  glm::ivec2 size{0};      ///< of the target
+  float preExposure = 1;   ///< the light buffer holds radiance times this
+  bool reduceDepth = false;  ///< tile bounds come from a pass, not from the whole depth buffer
+  bool firstView = true;
+  Report& report;
+  FrameStats& stats;
+
+  /// Viewport and scissor at the view's rectangle.
+  void setViewport() const;
+  /// A full-screen triangle with the named program into the bound framebuffer.
+  Result<void> drawScreen(std::string_view program) const;
+};
+
+/// Fills the uniform block of the view.
+Result<void> uploadFrameData(FrameContext& context, float displayExposure);
+/// Transforms of every visible instance into buffers.draws, in order.
+Result<void> uploadDraws(FrameContext& context);
+/// Binds geometry and uniform ranges of visible instance i; false when its mesh is not there (yet). `general`: the program reads the second vertex buffer.
+bool bindInstance(FrameContext& context, std::size_t i, bool general, const GpuMesh*& mesh);
+
+}  // namespace burnish::gpu_scene

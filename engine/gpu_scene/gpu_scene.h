@@ -1,0 +1,93 @@
+// One scene on the GPU: meshes and textures are uploaded when they are first drawn (nearest first, within a budget a frame) and again when their rows change.
+#pragma once
+#include <burnish/plan.h>
+
+#include <array>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "gl/objects.h"
+#include "gpu_scene/layout.h"
+
+namespace burnish::gpu_scene {
+
+/// Vertices: binding 0 = position f32x3, normal and tangent snorm16x4, uv0 f32x2; binding 1 (general programs) = uv1 f32x2, colour unorm16x4.
+struct GpuMesh {
+  gl::Buffer vertices, extras, indices;
+  int indexCount = 0;
+  GLenum indexType = GL_UNSIGNED_SHORT;
+  static constexpr int kStride = 36, kExtraStride = 16;
+};
+
+/// What an instance is drawn with; textures that have not arrived are their 1x1 defaults.
+struct MaterialBinding {
+  std::array<GLuint, 5> texture{};  ///< by texture unit: A, B, C, metal-rough, emissive
+  std::array<GLuint, 5> sampler{};
+  std::size_t offset = 0;           ///< of its MaterialData in materials()
+};
+
+/// Environment textures and coefficients, made from the scene's environment on first use.
+struct GpuEnvironment {
+  gl::Texture cube, sky;
+  std::array<glm::vec3, 9> irradiance{};
+  float meanLuminance = 0, lastLevel = 0;
+};
+
+class GpuScene {
+ public:
+  explicit GpuScene(gl::Device& device) : device_(device) {}
+
+  /// Call once a frame before anything else. budget: bytes that may be uploaded in this frame, 0: no limit (one resource always goes through).
+  Result<void> beginFrame(const Scene& scene, std::uint64_t budget, Report& report);
+  /// nullptr while it waits for its turn or cannot be drawn.
+  const GpuMesh* mesh(const Scene& scene, Id<Mesh> id, Report& report);
+  const MaterialBinding& material(const Scene& scene, Id<Material> id, Report& report);
+  [[nodiscard]] const gl::Buffer& materials() const { return materialBuffer_; }
+  /// Only called when the plan lights by it or shows it.
+  Result<const GpuEnvironment*> environment(const Scene& scene, Report& report);
+
+  [[nodiscard]] std::uint64_t uploadedBytes() const { return uploaded_; }  ///< in this frame
+  [[nodiscard]] std::uint64_t pending() const { return pending_; }         ///< resources refused in this frame
+
+ private:
+  struct MeshRow {
+    std::uint64_t revision = 0;
+    std::uint32_t generation = 0;
+    std::unique_ptr<GpuMesh> mesh;  // empty: cannot be drawn
+  };
+  struct TextureRow {
+    std::uint64_t revision = 0;
+    std::uint32_t generation = 0;
+    gl::Texture texture;
+    GLuint sampler = 0;
+  };
+  struct MaterialRow {
+    std::uint64_t revision = 0;
+    MaterialBinding binding;
+    bool complete = false;  // every texture has arrived
+  };
+  [[nodiscard]] bool admit(std::uint64_t bytes);
+  void sweep(const Scene& scene);
+  Result<void> updateMaterials(const Scene& scene, Report& report);
+  const TextureRow* texture(const Scene& scene, Id<Texture> id, Report& report);
+  Result<gl::Texture> uploadTexture(const Texture& texture, Report& report);
+  GLuint sampler(const Sampler& s);
+  Result<void> makeDefaults();
+
+  gl::Device& device_;
+  std::vector<MeshRow> meshes_;
+  std::vector<TextureRow> textures_;
+  std::vector<MaterialRow> materials_;
+  std::vector<std::pair<Sampler, gl::Sampler>> samplers_;
+  std::array<gl::Texture, 5> defaults_;
+  MaterialBinding defaultMaterial_;
+  gl::Buffer materialBuffer_;
+  std::size_t materialStride_ = 256;
+  std::unique_ptr<GpuEnvironment> environment_;
+  std::uint64_t environmentRevision_ = 0;
+  std::uint64_t meshesRevision_ = 0, texturesRevision_ = 0, materialsRevision_ = ~0ull;
+  std::uint64_t budget_ = 0, uploaded_ = 0, pending_ = 0;
+};
+
+}  // namespace burnish::gpu_scene

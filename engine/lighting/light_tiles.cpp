@@ -1,0 +1,173 @@
+#include "lighting/light_tiles.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "interface/limits.h"
+#include "plan/variants.h"
+
+namespace burnish::lighting {
+namespace {
+
+int bucketOf(std::uint32_t count) {
+  for (int b : plan::kTileBuckets)
+    if (std::uint32_t(b) >= count) return b;
+  return plan::kLoop;
+}
+
+}  // namespace
+
+void reduceDepth(const float* depth, int stride, int width, int height, std::vector<TileDepth>& out) {
+  const int columns = (width + TILE_SIZE - 1) / TILE_SIZE, rows = (height + TILE_SIZE - 1) / TILE_SIZE;
+  out.assign(std::size_t(columns * rows), {});
+  for (int ty = 0; ty < rows; ++ty) {
+    const int h = std::min(TILE_SIZE, height - ty * TILE_SIZE);
+    for (int tx = 0; tx < columns; ++tx) {
+      const int w = std::min(TILE_SIZE, width - tx * TILE_SIZE);
+      // A maximum and a minimum for each column of the tile, so that the inner loop is one vector wide.
+      float high[TILE_SIZE] = {}, low[TILE_SIZE];
+      std::fill(std::begin(low), std::end(low), 2.0f);
+      for (int y = 0; y < h; ++y) {
+        const float* row = depth + std::size_t(ty * TILE_SIZE + y) * std::size_t(stride) + std::size_t(tx * TILE_SIZE);
+        for (int x = 0; x < w; ++x) {
+          const float z = row[x];
+          high[x] = z > high[x] ? z : high[x];
+          const float drawn = z > 0 ? z : 2.0f;
+          low[x] = drawn < low[x] ? drawn : low[x];
+        }
+      }
+      TileDepth& t = out[std::size_t(ty * columns + tx)];
+      t.near = *std::max_element(std::begin(high), std::end(high));
+      t.far = t.near > 0 ? *std::min_element(std::begin(low), std::end(low)) : -1;
+    }
+  }
+}
+
+void TileCuller::boundTiles(const scene::ViewFrame& view, std::span<const TileDepth> depths) {
+  const std::size_t count = depths.size();
+  for (std::vector<float>* v : {&minX_, &maxX_, &minY_, &maxY_, &minZ_, &maxZ_}) v->resize(count);
+  const double w = view.viewport.z, h = view.viewport.w;
+  for (int ty = 0; ty < rows_; ++ty) {
+    const double y0 = (2.0 * ty * TILE_SIZE / h - 1) * view.tanY, y1 = (2.0 * (ty + 1) * TILE_SIZE / h - 1) * view.tanY;
+    for (int tx = 0; tx < columns_; ++tx) {
+      const std::size_t i = std::size_t(ty * columns_ + tx);
+      const TileDepth& t = depths[i];
+      if (t.far < 0) {
+        minZ_[i] = 1;
+        maxZ_[i] = -1;  // empty: no light meets it
+        continue;
+      }
+      const double x0 = (2.0 * tx * TILE_SIZE / w - 1) * view.tanX, x1 = (2.0 * (tx + 1) * TILE_SIZE / w - 1) * view.tanX;
+      double z0, z1, s0 = 1, s1 = 1;
+      if (view.orthographic) {
+        z0 = view.depthParams.x - double(t.near) * view.depthParams.y;
+        z1 = view.depthParams.x - double(t.far) * view.depthParams.y;
+      } else {
+        s0 = z0 = view.depthParams.x / (double(t.near) + view.depthParams.y);
+        s1 = z1 = view.depthParams.x / (double(t.far) + view.depthParams.y);
+      }
+      const double slack = 1e-5 * (std::abs(z1) + 1e-3);  // floats of the shader's own position
+      minX_[i] = float(std::min(x0 * s0, x0 * s1) - slack);
+      maxX_[i] = float(std::max(x1 * s0, x1 * s1) + slack);
+      minY_[i] = float(std::min(y0 * s0, y0 * s1) - slack);
+      maxY_[i] = float(std::max(y1 * s0, y1 * s1) + slack);
+      minZ_[i] = float(z0 - slack);
+      maxZ_[i] = float(z1 + slack);
+    }
+  }
+}
+
+void TileCuller::cullLight(const scene::ViewFrame& view, const scene::LocalLight& light, std::uint16_t index) {
+  const glm::dvec3 p(light.position);
+  const double x = glm::dot(view.axes[0], p), y = glm::dot(view.axes[1], p), z = -glm::dot(view.axes[2], p), r = light.radius;
+  if (!view.orthographic && z + r < near_) return;
+  // The sphere's box on the image plane: extremes of (c ± r)/d over its depths, which begin at the near plane.
+  const double dNear = view.orthographic ? 1 : std::max(z - r, near_), dFar = view.orthographic ? 1 : z + r;
+  const auto low = [&](double c) { return std::min((c - r) / dNear, (c - r) / dFar); };
+  const auto high = [&](double c) { return std::max((c + r) / dNear, (c + r) / dFar); };
+  const double w = view.viewport.z, h = view.viewport.w;
+  const auto tileAt = [](double image, double tan, double pixels, int tiles) { return int(std::clamp(std::floor((image / tan + 1) * 0.5 * pixels / TILE_SIZE), -1.0, double(tiles))); };
+  const int tx0 = std::max(tileAt(low(x), view.tanX, w, columns_), 0), tx1 = std::min(tileAt(high(x), view.tanX, w, columns_), columns_ - 1);
+  const int ty0 = std::max(tileAt(low(y), view.tanY, h, rows_), 0), ty1 = std::min(tileAt(high(y), view.tanY, h, rows_), rows_ - 1);
+  const bool spot = light.cosOuter > -1;
+  const glm::vec3 axis(float(glm::dot(view.axes[0], glm::dvec3(light.axis))), float(glm::dot(view.axes[1], glm::dvec3(light.axis))), float(-glm::dot(view.axes[2], glm::dvec3(light.axis))));
+  const float cosOuter = light.cosOuter, sinOuter = std::sqrt(std::max(1 - cosOuter * cosOuter, 0.0f));
+  const float fx = float(x), fy = float(y), fz = float(z), r2 = float(r * r * 1.0001);
+  for (int ty = ty0; ty <= ty1; ++ty)
+    for (int tx = tx0; tx <= tx1; ++tx) {
+      const std::size_t i = std::size_t(ty * columns_ + tx);
+      if (minZ_[i] > maxZ_[i]) continue;
+      const float dx = std::max({minX_[i] - fx, fx - maxX_[i], 0.0f}), dy = std::max({minY_[i] - fy, fy - maxY_[i], 0.0f}), dz = std::max({minZ_[i] - fz, fz - maxZ_[i], 0.0f});
+      if (dx * dx + dy * dy + dz * dz > r2) continue;
+      if (spot) {
+        // Cone against the slice's bounding sphere (Wronski 2017, "Cull that cone").
+        const glm::vec3 center((minX_[i] + maxX_[i]) * 0.5f, (minY_[i] + maxY_[i]) * 0.5f, (minZ_[i] + maxZ_[i]) * 0.5f);
+        const glm::vec3 half(maxX_[i] - center.x, maxY_[i] - center.y, maxZ_[i] - center.z);
+        const float radius = glm::length(half);
+        const glm::vec3 v = center - glm::vec3(fx, fy, fz);
+        const float along = glm::dot(v, axis), across = std::sqrt(std::max(glm::dot(v, v) - along * along, 0.0f));
+        if (cosOuter * across - along * sinOuter > radius || along < -radius) continue;
+      }
+      pairs_.push_back({std::uint32_t(i), index});
+    }
+}
+
+// Two counting sorts: pairs by tile, then tiles by program.
+void TileCuller::buildLists(std::span<const scene::LocalLight> lights) {
+  const std::size_t tiles = minZ_.size();
+  counts_.assign(tiles, 0);
+  spots_.assign(tiles, 0);
+  for (const Pair& p : pairs_) {
+    ++counts_[p.tile];
+    spots_[p.tile] |= lights[p.light - 1u].cosOuter > -1;
+  }
+  offsets_.resize(tiles);
+  std::uint32_t total = 0;
+  for (std::size_t i = 0; i < tiles; ++i) {
+    offsets_[i] = total;
+    total += counts_[i];
+  }
+  sorted_.resize(total);
+  std::vector<std::uint32_t> next = offsets_;
+  for (const Pair& p : pairs_) sorted_[next[p.tile]++] = p.light;
+
+  lists_.tiles.clear();
+  lists_.groups.clear();
+  lists_.entries.clear();
+  std::vector<std::uint8_t> seen(lights.size() + 1);
+  const auto addGroup = [&](int bucket) {
+    TileGroup g{bucket, int(lists_.tiles.size()), 0};
+    for (std::size_t i = 0; i < tiles; ++i) {
+      if (minZ_[i] > maxZ_[i]) continue;
+      const int own = spots_[i] ? plan::kLoop : bucketOf(counts_[i]);
+      if (own != bucket) continue;
+      const std::size_t first = lists_.entries.size();
+      for (std::uint32_t k = 0; k < counts_[i]; ++k) {
+        const std::uint16_t light = sorted_[offsets_[i] + k];
+        lists_.entries.push_back(light);
+        seen[light] = 1;
+      }
+      if (bucket > 0) lists_.entries.resize(first + std::size_t(bucket), 0);
+      lists_.tiles.emplace_back(int(i) % columns_, int(i) / columns_, int(first), int(lists_.entries.size() - first));
+    }
+    g.count = int(lists_.tiles.size()) - g.first;
+    if (g.count > 0) lists_.groups.push_back(g);
+  };
+  for (int bucket : plan::kTileBuckets) addGroup(bucket);
+  addGroup(plan::kLoop);
+  lists_.lightsInView = int(std::count(seen.begin(), seen.end(), 1));
+  if (lists_.entries.empty()) lists_.entries.push_back(0);
+}
+
+const TileLists& TileCuller::cull(const scene::ViewFrame& view, std::span<const TileDepth> depths, std::span<const scene::LocalLight> lights) {
+  columns_ = (view.viewport.z + TILE_SIZE - 1) / TILE_SIZE;
+  rows_ = (view.viewport.w + TILE_SIZE - 1) / TILE_SIZE;
+  near_ = view.near;
+  boundTiles(view, depths);
+  pairs_.clear();
+  for (std::size_t i = 0; i < lights.size(); ++i) cullLight(view, lights[i], std::uint16_t(i + 1));
+  buildLists(lights);
+  return lists_;
+}
+
+}  // namespace burnish::lighting

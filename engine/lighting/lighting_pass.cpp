@@ -1,0 +1,163 @@
+#include "lighting/lighting_pass.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "plan/variants.h"
+#include "prefilter/dfg.h"
+
+namespace burnish::lighting {
+
+using gpu_scene::FrameContext;
+
+Result<std::unique_ptr<LightingPass>> LightingPass::create(gl::Device& device) {
+  std::unique_ptr<LightingPass> pass(new LightingPass(device));
+  auto tiles = gl::Buffer::create(device, gl::BufferUse::Stream, sizeof(TileVertex), nullptr, "tiles");
+  auto lights = gl::TextureBuffer::create(device, GL_RGBA32F, gl::BufferUse::Stream, 16 * LIGHT_TEXELS, nullptr, "lights");
+  auto entries = gl::TextureBuffer::create(device, GL_R16UI, gl::BufferUse::Stream, 4, nullptr, "light lists");
+  if (!tiles) return fail(tiles.error());
+  if (!lights) return fail(lights.error());
+  if (!entries) return fail(entries.error());
+  pass->tiles_ = std::move(*tiles);
+  pass->lights_ = std::move(*lights);
+  pass->entries_ = std::move(*entries);
+  const gl::VertexAttribute attribute{0, 4, GL_INT, false, true, 0, 0};
+  const gl::VertexBinding binding{pass->tiles_.id(), 0, sizeof(TileVertex), 0};
+  pass->tileArray_ = gl::VertexArray::create(device, {&attribute, 1}, {&binding, 1}, 0, "tiles");
+  return pass;
+}
+
+Result<void> LightingPass::readTileDepths(FrameContext& c) {
+  const glm::ivec4 v = c.view.viewport;
+  if (!c.reduceDepth) {
+    depth_.resize(std::size_t(v.z) * std::size_t(v.w));
+    c.device.gl.GetTextureSubImage(c.targets.texture("depth")->id(), 0, v.x, v.y, 0, v.z, v.w, 1, GL_DEPTH_COMPONENT, GL_FLOAT, GLsizei(depth_.size() * sizeof(float)), depth_.data());
+    reduceDepth(depth_.data(), v.z, v.z, v.w, tileDepths_);
+    return {};
+  }
+  auto framebuffer = c.targets.framebuffer({"tile_depth"});
+  if (!framebuffer) return fail(framebuffer.error());
+  const int columns = (v.z + TILE_SIZE - 1) / TILE_SIZE, rows = (v.w + TILE_SIZE - 1) / TILE_SIZE;
+  const GladGLContext& gl = c.device.gl;
+  gl.BindFramebuffer(GL_FRAMEBUFFER, *framebuffer);
+  gl.Viewport(0, 0, columns, rows);
+  gl.Scissor(0, 0, columns, rows);
+  gl.Disable(GL_DEPTH_TEST);
+  c.targets.texture("depth")->bind(UNIT_DEPTH);
+  if (auto drawn = c.drawScreen("tile_depth"); !drawn) return drawn;
+  tileDepths_.resize(std::size_t(columns * rows));
+  static_assert(sizeof(TileDepth) == 8);
+  gl.GetTextureSubImage(c.targets.texture("tile_depth")->id(), 0, 0, 0, 0, columns, rows, 1, GL_RG, GL_FLOAT, GLsizei(tileDepths_.size() * sizeof(TileDepth)), tileDepths_.data());
+  return {};
+}
+
+Result<void> LightingPass::uploadLights(FrameContext& c) {
+  std::vector<glm::vec4> texels(LIGHT_TEXELS * (c.lights.local.size() + 1), glm::vec4(0));
+  texels[0] = {0, 0, 1, 0};  // the black light that pads lists
+  for (std::size_t i = 0; i < c.lights.local.size(); ++i) {
+    const scene::LocalLight& l = c.lights.local[i];
+    glm::vec4* t = &texels[LIGHT_TEXELS * (i + 1)];
+    t[0] = glm::vec4(l.position, l.invRange4);
+    t[1] = glm::vec4(glm::min(l.intensity * c.preExposure, glm::vec3(1e18f)), l.bias);
+    t[2] = glm::vec4(l.axis, l.spotScale);
+    t[3] = glm::vec4(l.spotOffset, 0, 0, 0);
+  }
+  if (auto w = lights_.write(std::as_bytes(std::span(texels))); !w) return w;
+  if (auto w = entries_.write(std::as_bytes(std::span(lists_->entries))); !w) return w;
+  return tiles_.write(std::as_bytes(std::span(lists_->tiles)));
+}
+
+Result<void> LightingPass::buildTiles(FrameContext& c) {
+  if (auto read = readTileDepths(c); !read) return read;
+  std::span<const scene::LocalLight> lights(c.lights.local);
+  const std::size_t limit = std::min<std::size_t>(65534, std::size_t(c.device.caps.maxTextureBufferTexels) / LIGHT_TEXELS - 1);
+  if (lights.size() > limit) {
+    c.report.warn("lights", fmt::format("{} point and spot lights: {} is the limit, the rest is off", lights.size(), limit));
+    lights = lights.first(limit);
+  }
+  lists_ = &culler_.cull(c.view, tileDepths_, lights);
+  c.stats.lightsInView += lists_->lightsInView;
+  return uploadLights(c);
+}
+
+// Whole tiles, so that no point's centre falls outside and is clipped; the scissor keeps the view's rectangle.
+void LightingPass::widenViewport(const FrameContext& c) {
+  const glm::ivec4 v = c.view.viewport;
+  c.setViewport();
+  c.device.gl.Viewport(v.x, v.y, (v.z + TILE_SIZE - 1) / TILE_SIZE * TILE_SIZE, (v.w + TILE_SIZE - 1) / TILE_SIZE * TILE_SIZE);
+  c.device.gl.Enable(GL_PROGRAM_POINT_SIZE);
+}
+
+Result<GLuint> LightingPass::dfgTable(Geometry geometry) {
+  gl::Texture& t = dfg_[std::size_t(geometry)];
+  if (!t) {
+    auto made = gl::Texture::create(device_, {.format = GL_RG16, .width = prefilter::kDfgSize, .height = prefilter::kDfgSize}, "dfg");
+    if (!made) return fail(made.error());
+    made->upload(0, prefilter::dfgTable(geometry).data());
+    made->setFilter(GL_LINEAR, GL_LINEAR);
+    t = std::move(*made);
+  }
+  return t.id();
+}
+
+Result<void> LightingPass::shadeTiles(FrameContext& c) {
+  const GladGLContext& gl = c.device.gl;
+  auto framebuffer = c.targets.framebuffer({"light"});
+  if (!framebuffer) return fail(framebuffer.error());
+  gl.BindFramebuffer(GL_FRAMEBUFFER, *framebuffer);
+  widenViewport(c);
+  gl.Disable(GL_DEPTH_TEST);
+  c.targets.texture("gbuffer_a")->bind(UNIT_GBUFFER_A);
+  c.targets.texture("gbuffer_b")->bind(UNIT_GBUFFER_B);
+  c.targets.texture("depth")->bind(UNIT_DEPTH);
+  gl.BindSamplers(0, 10, nullptr);
+  const bool occlusion = c.plan.on("baked_occlusion"), environment = c.plan.on("environment_lighting");
+  if (occlusion) c.targets.texture("gbuffer_c")->bind(UNIT_GBUFFER_C);
+  if (environment) {
+    auto table = dfgTable(c.quality.geometry);
+    if (!table) return fail(table.error());
+    gl.BindTextureUnit(UNIT_DFG, *table);
+    c.environment->cube.bind(UNIT_ENVIRONMENT);
+  }
+  lights_.bind(UNIT_LIGHTS);
+  entries_.bind(UNIT_LIGHT_LISTS);
+  tileArray_.bind();
+  gl.VertexArrayVertexBuffer(tileArray_.id(), 0, tiles_.id(), 0, sizeof(TileVertex));
+  for (const TileGroup& g : lists_->groups) {
+    const std::string name = plan::lightingProgram(g.bucket, c.quality, int(c.lights.directional.size()), environment, occlusion, c.view.orthographic).name;
+    const gl::Program* program = c.programs.find(name);
+    if (!program) return fail("frame plan", fmt::format("program '{}' is not in it", name), "report this as a fault of the engine");
+    program->use();
+    gl.DrawArrays(GL_POINTS, g.first, g.count);
+  }
+  return {};
+}
+
+void LightingPass::drawAllTiles(FrameContext& c) {
+  widenViewport(c);
+  tileArray_.bind();
+  c.device.gl.VertexArrayVertexBuffer(tileArray_.id(), 0, tiles_.id(), 0, sizeof(TileVertex));
+  c.device.gl.DrawArrays(GL_POINTS, 0, GLsizei(lists_->tiles.size()));
+}
+
+Result<void> LightingPass::drawBackground(FrameContext& c) {
+  const GladGLContext& gl = c.device.gl;
+  const bool depth = c.targets.texture("depth") != nullptr;
+  auto framebuffer = depth ? c.targets.framebuffer({"light"}, "depth") : c.targets.framebuffer({"light"});
+  if (!framebuffer) return fail(framebuffer.error());
+  gl.BindFramebuffer(GL_FRAMEBUFFER, *framebuffer);
+  c.setViewport();
+  if (depth) {
+    gl.Enable(GL_DEPTH_TEST);
+    gl.DepthFunc(GL_EQUAL);
+    gl.DepthMask(GL_FALSE);
+  }
+  gl.BindSamplers(0, 10, nullptr);
+  if (c.environment) c.environment->sky.bind(UNIT_ENVIRONMENT);
+  auto drawn = c.drawScreen(c.view.orthographic ? "background+ortho" : "background");
+  gl.DepthMask(GL_TRUE);
+  return drawn;
+}
+
+}  // namespace burnish::lighting

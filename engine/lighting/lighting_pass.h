@@ -1,0 +1,38 @@
+// Light culling and the lighting passes: "tiles", "lighting", "background".
+#pragma once
+#include "gpu_scene/frame.h"
+#include "lighting/light_tiles.h"
+
+namespace burnish::lighting {
+
+class LightingPass {
+ public:
+  static Result<std::unique_ptr<LightingPass>> create(gl::Device& device);
+  /// Pass "tiles": depth bounds of each tile, light lists, uploads.
+  Result<void> buildTiles(gpu_scene::FrameContext& context);
+  /// Pass "lighting": shades the tiles that hold surfaces into the light buffer.
+  Result<void> shadeTiles(gpu_scene::FrameContext& context);
+  /// Pass "background": where nothing was drawn.
+  Result<void> drawBackground(gpu_scene::FrameContext& context);
+  /// Draws every tile with the bound program (debug view of the lists).
+  void drawAllTiles(gpu_scene::FrameContext& context);
+
+ private:
+  explicit LightingPass(gl::Device& device) : device_(device) {}
+  Result<void> readTileDepths(gpu_scene::FrameContext& context);
+  Result<void> uploadLights(gpu_scene::FrameContext& context);
+  Result<GLuint> dfgTable(Geometry geometry);
+  static void widenViewport(const gpu_scene::FrameContext& context);
+
+  gl::Device& device_;
+  TileCuller culler_;
+  const TileLists* lists_ = nullptr;
+  std::vector<float> depth_;
+  std::vector<TileDepth> tileDepths_;
+  gl::Buffer tiles_;
+  gl::VertexArray tileArray_;
+  gl::TextureBuffer lights_, entries_;
+  std::array<gl::Texture, 2> dfg_;
+};
+
+}  // namespace burnish::lighting

@@ -1,0 +1,96 @@
+#include "post/post_pass.h"
+
+#include <cmath>
+
+namespace burnish::post {
+namespace {
+
+using gpu_scene::FrameContext;
+
+// Plain full-screen state on a framebuffer.
+void begin(FrameContext& c, GLuint framebuffer) {
+  const GladGLContext& gl = c.device.gl;
+  gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  c.setViewport();
+  gl.Disable(GL_DEPTH_TEST);
+  gl.BindSamplers(0, 10, nullptr);
+}
+
+void bindIfThere(FrameContext& c, std::string_view target, GLuint unit) {
+  if (const gl::Texture* t = c.targets.texture(target)) t->bind(unit);
+}
+
+Result<void> drawDepth(FrameContext& c, std::string_view name, const HostDepth& host) {
+  const GladGLContext& gl = c.device.gl;
+  gl.Enable(GL_DEPTH_TEST);
+  gl.DepthFunc(GL_ALWAYS);
+  gl.DepthMask(GL_TRUE);
+  if (const gl::Program* program = c.programs.find(name))
+    gl.ProgramUniform4f(program->id(), 0, host.near, c.view.orthographic && host.far <= 0 ? 1000.0f : host.far, host.reversed ? 1.0f : 0.0f, c.view.orthographic ? 1.0f : 0.0f);
+  auto drawn = c.drawScreen(name);
+  gl.Disable(GL_DEPTH_TEST);
+  return drawn;
+}
+
+}  // namespace
+
+Result<void> measureExposure(FrameContext& c) {
+  auto framebuffer = c.targets.framebuffer({"exposure"});
+  if (!framebuffer) return fail(framebuffer.error());
+  begin(c, *framebuffer);
+  c.device.gl.Viewport(0, 0, 1, 1);
+  c.device.gl.Scissor(0, 0, 1, 1);
+  bindIfThere(c, "light", UNIT_LIGHT_BUFFER);
+  return c.drawScreen("exposure");
+}
+
+Result<void> drawTonemap(FrameContext& c, GLuint framebuffer) {
+  begin(c, framebuffer);
+  bindIfThere(c, "light", UNIT_LIGHT_BUFFER);
+  bindIfThere(c, "exposure", UNIT_EXPOSURE);
+  bindIfThere(c, "gbuffer_b", UNIT_GBUFFER_B);
+  bindIfThere(c, "depth", UNIT_DEPTH);
+  return c.drawScreen("tonemap");
+}
+
+Result<void> drawDebugView(FrameContext& c, GLuint framebuffer) {
+  begin(c, framebuffer);
+  bindIfThere(c, "gbuffer_a", UNIT_GBUFFER_A);
+  bindIfThere(c, "gbuffer_b", UNIT_GBUFFER_B);
+  bindIfThere(c, "gbuffer_c", UNIT_GBUFFER_C);
+  bindIfThere(c, "depth", UNIT_DEPTH);
+  bindIfThere(c, "light", UNIT_LIGHT_BUFFER);
+  return c.drawScreen(c.view.orthographic ? "debug_view+ortho" : "debug_view");
+}
+
+std::uint64_t countNonfinite(FrameContext& c) {
+  const gl::Texture* light = c.targets.texture("light");
+  if (!light) return 0;
+  const glm::ivec4 v = c.view.viewport;
+  std::vector<glm::vec4> pixels(std::size_t(v.z) * std::size_t(v.w));
+  c.device.gl.GetTextureSubImage(light->id(), 0, v.x, v.y, 0, v.z, v.w, 1, GL_RGBA, GL_FLOAT, GLsizei(pixels.size() * sizeof(glm::vec4)), pixels.data());
+  std::uint64_t count = 0;
+  for (const glm::vec4& p : pixels) count += !(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
+  return count;
+}
+
+Result<void> takeHostDepth(FrameContext& c, const HostDepth& host) {
+  auto framebuffer = c.targets.framebuffer({}, "depth");
+  if (!framebuffer) return fail(framebuffer.error());
+  begin(c, *framebuffer);
+  c.device.gl.BindTextureUnit(UNIT_DEPTH, host.texture);
+  return drawDepth(c, "depth_in", host);
+}
+
+Result<void> giveHostDepth(FrameContext& c, const HostDepth& host) {
+  gl::Attachment attachment;
+  attachment.texture = host.texture;
+  attachment.format = GL_DEPTH_COMPONENT32F;
+  auto framebuffer = gl::Framebuffer::create(c.device, {}, attachment, "host depth");
+  if (!framebuffer) return fail("target depth", "cannot be drawn to: " + framebuffer.error().what, "give a 2D depth texture of the target's size");
+  begin(c, framebuffer->id());
+  bindIfThere(c, "depth", UNIT_DEPTH);
+  return drawDepth(c, "depth_out", host);
+}
+
+}  // namespace burnish::post

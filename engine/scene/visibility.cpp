@@ -1,0 +1,153 @@
+#include "scene/visibility.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "scene/transforms.h"
+
+namespace burnish::scene {
+
+void Derived::update(const Scene& scene) {
+  if (scene.nodes.revision() != nodesRevision_) {
+    world_ = worldMatrices(scene);
+    nodesRevision_ = scene.nodes.revision();
+  }
+  if (scene.meshes.revision() != meshesRevision_) {
+    bounds_.resize(scene.meshes.capacity());
+    scene.meshes.each([&](Id<Mesh> id, const Mesh& mesh) {
+      MeshBounds& b = bounds_[id.index];
+      const std::uint64_t revision = scene.meshes.revision(id);
+      if (b.revision == revision) return;
+      b.bounds = boundsOf(mesh);
+      b.revision = revision;
+    });
+    meshesRevision_ = scene.meshes.revision();
+  }
+}
+
+const glm::dmat4& Derived::world(Id<Node> node) const {
+  static const glm::dmat4 kIdentity(1);
+  return node.index < world_.size() ? world_[node.index] : kIdentity;
+}
+
+namespace {
+
+double within(double value, double low, double high, double otherwise) { return std::isfinite(value) ? std::clamp(value, low, high) : otherwise; }
+
+// Six (or five, without a far plane) planes in camera-relative world space, pointing inward: dot(n, p) + d >= 0.
+struct Planes {
+  glm::dvec4 plane[6];
+  int count = 0;
+};
+
+Planes planesOf(const ViewFrame& f) {
+  Planes p;
+  const glm::dmat4 t = glm::transpose(f.viewProjection);
+  // Clip space: -w <= x, y <= w; reversed depth: z <= w is the near plane, z >= 0 the far plane.
+  for (const glm::dvec4& plane : {t[3] + t[0], t[3] - t[0], t[3] + t[1], t[3] - t[1], t[3] - t[2], t[2]}) {
+    const double length = glm::length(glm::dvec3(plane));
+    if (length > 1e-300) p.plane[p.count++] = plane / length;
+  }
+  return p;
+}
+
+bool meets(const Planes& planes, glm::dvec3 center, glm::dvec3 halfExtent) {
+  for (int i = 0; i < planes.count; ++i) {
+    const glm::dvec3 n(planes.plane[i]);
+    if (glm::dot(n, center) + planes.plane[i].w + glm::dot(glm::abs(n), halfExtent) < 0) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+ViewFrame frameOf(const View& view, glm::ivec2 size) {
+  ViewFrame f;
+  f.viewport = view.viewport.z > 0 && view.viewport.w > 0 ? view.viewport : glm::ivec4(0, 0, size);
+  f.orthographic = view.orthographic;
+  f.eye = view.eye;
+  for (int i = 0; i < 3; ++i)
+    if (!std::isfinite(f.eye[i])) f.eye[i] = 0;
+  f.axes = view.axes;
+  f.near = within(view.near, 1e-6, 1e9, 0.05);
+  f.far = view.far > 0 ? within(view.far, f.near * 1.0001, 1e12, 0) : 0;
+  const double aspect = double(std::max(f.viewport.z, 1)) / double(std::max(f.viewport.w, 1));
+  glm::dmat4 projection(0);
+  if (f.orthographic) {
+    if (f.far <= 0) f.far = 1000;
+    f.tanY = within(view.height, 1e-6, 1e9, 2) * 0.5;
+    f.tanX = f.tanY * aspect;
+    projection = glm::dmat4(1);
+    projection[0][0] = 1 / f.tanX;
+    projection[1][1] = 1 / f.tanY;
+    projection[2][2] = 1 / (f.far - f.near);  // z = (far - w) / (far - near), w = -z_view
+    projection[3][2] = f.far / (f.far - f.near);
+    f.depthParams = {f.far, f.far - f.near};
+  } else {
+    f.tanY = std::tan(within(view.fovY, 1e-4, 3.1, 0.87) * 0.5);
+    f.tanX = f.tanY * aspect;
+    const bool infinite = f.far <= 0;
+    const double a = infinite ? f.near : f.near * f.far / (f.far - f.near), b = infinite ? 0 : f.near / (f.far - f.near);
+    projection[0][0] = 1 / f.tanX;
+    projection[1][1] = 1 / f.tanY;
+    projection[2][3] = -1;
+    projection[2][2] = b;  // z_clip = a - b w
+    projection[3][2] = a;
+    f.depthParams = {a, b};
+  }
+  f.viewProjection = projection * glm::dmat4(glm::transpose(f.axes));
+  return f;
+}
+
+ViewFrame narrowed(const ViewFrame& frame, glm::ivec2 pixel) {
+  ViewFrame f = frame;
+  const double w = frame.viewport.z, h = frame.viewport.w;
+  const double cx = 2 * (pixel.x + 0.5) / w - 1, cy = 2 * (pixel.y + 0.5) / h - 1;
+  glm::dmat4 zoom(1);
+  zoom[0][0] = w;
+  zoom[1][1] = h;
+  zoom[3][0] = -cx * w;
+  zoom[3][1] = -cy * h;
+  f.viewProjection = zoom * frame.viewProjection;
+  f.viewport = {0, 0, 1, 1};
+  return f;
+}
+
+void findVisible(const Scene& scene, const Derived& derived, const ViewFrame& frame, std::vector<VisibleInstance>& out) {
+  out.clear();
+  const Planes planes = planesOf(frame);
+  scene.instances.each([&](Id<Instance> id, const Instance& instance) {
+    const Mesh* mesh = scene.meshes.get(instance.mesh);
+    if (!instance.visible || !mesh || mesh->indices.empty()) return;
+    const Bounds& bounds = derived.bounds(instance.mesh);
+    if (bounds.empty()) return;
+    glm::dmat4 world = scene.nodes.has(instance.node) ? derived.world(instance.node) : glm::dmat4(1);
+    world[3] -= glm::dvec4(frame.eye, 0);
+    if (!finite(world)) return;
+    const glm::dvec3 half = (glm::dvec3(bounds.max) - glm::dvec3(bounds.min)) * 0.5, middle = (glm::dvec3(bounds.max) + glm::dvec3(bounds.min)) * 0.5;
+    const glm::dmat3 m(world);
+    const glm::dvec3 center = m * middle + glm::dvec3(world[3]);
+    const glm::dvec3 extent = glm::abs(m[0]) * half.x + glm::abs(m[1]) * half.y + glm::abs(m[2]) * half.z;
+    if (!meets(planes, center, extent)) return;
+    VisibleInstance v;
+    v.id = id;
+    v.instance = &instance;
+    v.mesh = mesh;
+    v.distance = float(glm::length(center));
+    const double determinant = glm::determinant(m);
+    v.flipped = determinant < 0;
+    // Cofactors carry normals through any transform, singular ones included; scaled so that floats neither overflow nor vanish.
+    glm::dmat3 cofactor(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
+    const double largest = std::max({glm::length(cofactor[0]), glm::length(cofactor[1]), glm::length(cofactor[2])});
+    if (largest > 0) cofactor *= (v.flipped ? -1 : 1) / largest;
+    for (int r = 0; r < 3; ++r) {
+      v.model[r] = {float(m[0][r]), float(m[1][r]), float(m[2][r]), float(world[3][r])};
+      v.normal[r] = {float(cofactor[0][r]), float(cofactor[1][r]), float(cofactor[2][r])};
+    }
+    out.push_back(v);
+  });
+  std::stable_sort(out.begin(), out.end(), [](const VisibleInstance& a, const VisibleInstance& b) { return a.distance < b.distance; });
+}
+
+}  // namespace burnish::scene

@@ -1,0 +1,76 @@
+// What a view sees: instances inside its frustum, nearest first, with their transforms relative to the eye; and the lights.
+// Everything is relative to the eye in world axes, subtracted in double precision, so that a camera far from the origin loses nothing.
+#pragma once
+#include <burnish/plan.h>
+
+#include <vector>
+
+namespace burnish::scene {
+
+/// World matrices and mesh bounds of one scene, kept until the tables change.
+class Derived {
+ public:
+  void update(const Scene& scene);
+  [[nodiscard]] const glm::dmat4& world(Id<Node> node) const;
+  [[nodiscard]] const Bounds& bounds(Id<Mesh> mesh) const { return bounds_[mesh.index].bounds; }
+
+ private:
+  struct MeshBounds {
+    std::uint64_t revision = 0;
+    Bounds bounds;
+  };
+  std::vector<glm::dmat4> world_;
+  std::vector<MeshBounds> bounds_;
+  std::uint64_t nodesRevision_ = ~0ull, meshesRevision_ = ~0ull;
+};
+
+/// The view's geometry in numbers that passes and culling share.
+struct ViewFrame {
+  glm::ivec4 viewport{0};
+  bool orthographic = false;
+  glm::dvec3 eye{0};
+  glm::dmat3 axes{1};                     ///< right, up, back
+  double tanX = 1, tanY = 1;              ///< half extents of the image plane at depth 1 (perspective) or in metres (orthographic)
+  double near = 0.05, far = 0;            ///< far 0: infinite
+  glm::dvec2 depthParams{0};              ///< perspective: depth w = x / (z + y); orthographic: w = x - z y
+  glm::dmat4 viewProjection{1};           ///< camera-relative world to clip, depth reversed in [0,1]
+};
+/// Viewport and projection of a view on a target. Values out of range (fov, near, NaN) are clamped to what can be drawn.
+ViewFrame frameOf(const View& view, glm::ivec2 targetSize);
+/// The same frame narrowed to one pixel of the viewport, drawn to a 1x1 target (picking).
+ViewFrame narrowed(const ViewFrame& frame, glm::ivec2 pixel);
+
+struct VisibleInstance {
+  Id<Instance> id;
+  const Instance* instance = nullptr;
+  const Mesh* mesh = nullptr;
+  glm::vec4 model[3];   ///< rows: object to camera-relative world
+  glm::vec3 normal[3];  ///< rows of the cofactor matrix, times the sign of the determinant
+  bool flipped = false;  ///< the transform mirrors
+  float distance = 0;   ///< from the eye to the centre of the bounds, metres
+};
+/// Instances whose bounds meet the frustum, sorted by distance. Non-finite transforms are left out.
+void findVisible(const Scene& scene, const Derived& derived, const ViewFrame& frame, std::vector<VisibleInstance>& out);
+
+struct DirectionalLight {
+  glm::vec3 toLight{0, 1, 0};
+  glm::vec3 illuminance{0};  ///< lux
+};
+/// A point or spot light, relative to the eye.
+struct LocalLight {
+  glm::vec3 position{0};
+  glm::vec3 intensity{0};  ///< candela
+  float radius = 0;        ///< metres: it gives nothing beyond
+  float invRange4 = 0, bias = 0;  ///< shaders/shading/light.h
+  glm::vec3 axis{0, -1, 0};
+  float spotScale = 0, spotOffset = 1;
+  float cosOuter = -2;     ///< -2: a point light
+};
+struct LightSet {
+  std::vector<DirectionalLight> directional;  ///< at most MAX_DIRECTIONAL
+  std::vector<LocalLight> local;
+};
+/// Lights of the scene that are on and finite. Ranges that were derived, lights past the limit and lights that are mended are reported.
+LightSet gatherLights(const Scene& scene, const Derived& derived, const ViewFrame& frame, const Quality& quality, Report& report);
+
+}  // namespace burnish::scene
