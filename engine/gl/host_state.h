@@ -27,7 +27,8 @@ struct StateEntry {
   StateValue other{};                 ///< another legal value, for tests; with an object, value[0] is to be replaced by a name
   std::function<StateValue(const GladGLContext&)> get;  ///< may change the active texture unit, nothing else
   std::function<void(const GladGLContext&, const StateValue&)> set;  ///< the same
-  bool bulk = false;  ///< setDefaults covers it with a multi-bind call
+  bool bulk = false;   ///< setDefaults covers it with a multi-bind call
+  bool lossy = false;  ///< reading may lose information, so the guard leaves it alone and puts it back only where it reads differently; the engine does not use it
 };
 
 /// Every piece, in an order in which it can be read; restore in reverse ("active texture" is first). Immutable, built on first use.
@@ -37,7 +38,8 @@ using StateSnapshot = std::vector<StateValue>;  ///< in the order of stateTable(
 StateSnapshot captureState(const Device& device);
 void restoreState(const Device& device, const StateSnapshot& snapshot);
 /// Everything at GL's defaults with no engine object bound (HostState::Declared, and the state every frame starts from). About 250 calls.
-void setDefaults(const Device& device);
+/// keepLossy: rows marked `lossy` stay as they are (for the guard).
+void setDefaults(const Device& device, bool keepLossy = false);
 
 /// Saves on construction and then calls setDefaults; restores on destruction. Not covered, because GL gives no way to put it back: a query, conditional
 /// rendering or transform feedback that the host left active, and a program that the host deleted while it was in use.

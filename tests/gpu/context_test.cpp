@@ -242,7 +242,7 @@ TEST_CASE("hidden: windows", "[.glfw]") {
     CHECK(device->takeErrors().empty());
   }
 }
-TEST_CASE("windows through GLX and through EGL, under Xvfb", "[glfw]") {
+TEST_CASE("windows through GLX and through EGL, under Xvfb") {
   if (std::system("command -v xvfb-run > /dev/null 2>&1") != 0) FAIL("xvfb-run is missing: apt-get install xvfb xauth");
   const Outcome outcome = runSelf("xvfb-run -a -s '-screen 0 640x480x24'", "[.glfw]");
   INFO(outcome.output);
