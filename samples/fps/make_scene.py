@@ -28,7 +28,7 @@ sys.path.insert(0, os.path.join(HERE, "..", "common"))
 import scenegen as sg  # noqa: E402
 from scenegen import Noise, Surface, blend, blur, box, cavity, lathe, merge, plane, ring, smooth, spline, stack, tube  # noqa: E402
 
-EV100 = 6.5                     # the exposure this scene is lit for
+EV100 = 5.8                     # the exposure this scene is lit for
 WALL = 0.3                      # thickness of the inner walls
 GOLD, IRON = (1.0, 0.77, 0.34), np.array((0.56, 0.57, 0.58))
 RUST = np.array((0.235, 0.088, 0.030))
@@ -47,6 +47,7 @@ OPENINGS = {
     "corridor": ("z", -6.3, -2.0, 1.7, 2.35),
     "vault": ("z", -12.6, -2.0, 1.7, 2.35),
 }
+ARMILLARY_SPOT = (-0.7, 3.55, -0.35)
 LAMPS = [(-2.0, 2.95, -3.7), (2.0, 2.95, -3.7), (-2.0, 2.95, 1.3), (2.0, 2.95, 1.3)]
 WARM, TUNGSTEN = (1.0, 0.83, 0.62), (1.0, 0.64, 0.32)
 
@@ -65,10 +66,10 @@ def brick_surface():
     face = smooth(0.003, 0.010, np.minimum(dx, dy))
     per = z.rng.random((20, 8, 3))[row, col]
     grit, stain = z.fbm(32, octaves=4), z.fbm(3, octaves=4)
-    clay = blend((0.36, 0.125, 0.062), (0.20, 0.072, 0.048), per[..., 0])
-    clay = blend(clay, (0.46, 0.24, 0.13), smooth(0.80, 0.95, per[..., 1]))
+    clay = blend((0.47, 0.205, 0.115), (0.29, 0.118, 0.078), per[..., 0])
+    clay = blend(clay, (0.56, 0.345, 0.205), smooth(0.75, 0.95, per[..., 1]))
     clay = clay * (0.72 + 0.56 * grit)[..., None]
-    mortar = np.array((0.40, 0.365, 0.31)) * (0.75 + 0.5 * grit)[..., None]
+    mortar = np.array((0.50, 0.46, 0.40)) * (0.75 + 0.5 * grit)[..., None]
     colour = blend(mortar, clay, face) * (0.78 + 0.44 * stain)[..., None]
     height = 0.007 * face + 0.0022 * grit + 0.0025 * (per[..., 2] - 0.5) * face
     rough = 0.93 - 0.16 * face + 0.1 * (grit - 0.5)
@@ -76,14 +77,11 @@ def brick_surface():
 
 
 def plaster_surface():
-    """Old lime plaster: trowel marks, faint stains, a few hairline cracks."""
+    """Old lime plaster: trowel marks and faint stains."""
     z = Noise(102)
     soft, grit = z.fbm(4, octaves=4), z.fbm(32, octaves=3)
-    wx, wy = z.warped(6, 0.12)
-    crack = smooth(0.955, 0.985, z.ridged(3, 2, wx, wy)) * smooth(0.45, 0.6, z.fbm(3, octaves=2))
     colour = blend((0.60, 0.54, 0.44), (0.70, 0.66, 0.58), smooth(0.3, 0.7, soft)) * (0.9 + 0.2 * grit)[..., None]
-    colour = blend(colour, (0.2, 0.17, 0.13), 0.7 * crack)
-    height = 0.004 * soft + 0.0006 * grit - 0.0015 * crack
+    height = 0.004 * soft + 0.0006 * grit
     return Surface(2.0, height, colour, 0.86 + 0.1 * grit, 0 * soft, cavity(height, 0.005))
 
 
@@ -96,9 +94,10 @@ def floor_surface():
     slab = smooth(0.0015, 0.006, edge)
     shift = z.rng.random((4, 4, 2))[iy, ix]
     wx, wy = z.warped(4, 0.25)
-    vein = smooth(0.80, 0.98, z.ridged(3, 4, wx + shift[..., 0], wy + shift[..., 1]))
-    cloud, wear = z.fbm(5, octaves=5), z.fbm(3, octaves=5)
-    pale = blend((0.50, 0.45, 0.36), (0.63, 0.585, 0.50), cloud) * (1 - 0.35 * vein)[..., None]
+    wx, wy = wx + shift[..., 0], wy + shift[..., 1]
+    vein = np.maximum(smooth(0.945, 1.0, z.ridged(3, 1, wx, wy)), 0.5 * smooth(0.93, 1.0, z.ridged(8, 1, wx, wy)))
+    cloud, wear = z.fbm(5, octaves=4), z.fbm(3, octaves=3)
+    pale = blend((0.50, 0.45, 0.36), (0.63, 0.585, 0.50), cloud) * (1 - 0.40 * vein)[..., None]
     deep = blend((0.030, 0.042, 0.038), (0.065, 0.080, 0.072), cloud)
     deep = blend(deep, (0.30, 0.31, 0.27), 0.6 * vein)
     colour = blend(pale, deep, dark) * (0.85 + 0.3 * shift[..., :1])
@@ -116,13 +115,13 @@ def wood_surface():
     z = Noise(104)
     bend = 0.05 * (z.fbm(2, 3, 3) - 0.5)
     rings = z.fbm(1, 24, 3, 0.5, z.x, z.y + bend)
-    fibre = z.fbm(6, 128, 2, 0.6, z.x, z.y + bend)
+    fibre = z.fbm(9, 176, 2, 0.6, z.x, z.y + bend)
     broad = z.fbm(2, 6, 3)
     grain = smooth(0.25, 0.75, rings)
     pore = smooth(0.62, 0.80, fibre)
-    colour = blend((0.29, 0.150, 0.064), (0.125, 0.056, 0.022), grain) * (0.75 + 0.5 * broad)[..., None]
-    colour = colour * (1 - 0.4 * pore)[..., None]
-    height = 0.0012 * rings - 0.0011 * pore + 0.001 * broad
+    colour = blend((0.36, 0.195, 0.088), (0.185, 0.088, 0.037), grain) * (0.75 + 0.5 * broad)[..., None]
+    colour = colour * (1 - 0.3 * pore)[..., None]
+    height = 0.0012 * rings - 0.0006 * pore + 0.001 * broad
     return Surface(1.6, height, colour, 0.42 + 0.22 * pore + 0.12 * grain, 0 * grain, 1 - 0.35 * pore)
 
 
@@ -135,7 +134,7 @@ def paint_surfaces():
     score = z.scratches(46, 0.22, 1.3)
     worn = chip + 0.07 * (drip - 0.5) + 0.16 * score
     bare = smooth(0.612, 0.622, worn)
-    rust = smooth(0.640, 0.675, worn - 0.10 * score) * bare
+    rust = smooth(0.626, 0.650, worn - 0.10 * score) * bare
     halo = smooth(0.50, 0.63, worn) * (1 - bare) * smooth(0.35, 0.65, drip)
     grit, cloud = z.fbm(48, octaves=3), z.fbm(5, octaves=4)
     oxide = blend(RUST * 0.55, RUST * 1.5, smooth(0.3, 0.7, grit))
@@ -180,30 +179,42 @@ def stone_surface():
     """Honed travertine with small pits."""
     z = Noise(108)
     band, grit = z.fbm(2, 9, 5), z.fbm(24, octaves=3)
-    pit = smooth(0.66, 0.76, z.fbm(10, 28, 3)) * smooth(0.4, 0.6, band)
+    pit = smooth(0.60, 0.72, z.fbm(26, 64, 2)) * smooth(0.45, 0.65, z.fbm(4, 12, 3))
     colour = blend((0.44, 0.37, 0.27), (0.62, 0.55, 0.44), smooth(0.3, 0.7, band)) * (0.88 + 0.24 * grit)[..., None]
-    colour = colour * (1 - 0.5 * pit)[..., None]
-    height = 0.0004 * grit - 0.004 * pit
+    colour = colour * (1 - 0.35 * pit)[..., None]
+    height = 0.0004 * grit - 0.0016 * pit
     return Surface(1.5, height, colour, 0.34 + 0.2 * grit + 0.35 * pit, 0 * pit, 1 - 0.55 * pit)
 
 
 def concrete_surface():
     """Power-floated concrete, sealed: roughness wanders from satin to dull."""
     z = Noise(109)
-    cloud, grit, wear = z.fbm(3, octaves=5), z.fbm(40, octaves=3), z.fbm(4, octaves=5)
-    wx, wy = z.warped(5, 0.15)
-    crack = smooth(0.965, 0.99, z.ridged(2, 3, wx, wy))
-    colour = blend((0.20, 0.19, 0.175), (0.34, 0.325, 0.30), smooth(0.3, 0.7, cloud)) * (0.85 + 0.3 * grit)[..., None]
-    colour = blend(colour, (0.07, 0.065, 0.06), 0.8 * crack)
-    height = 0.0006 * cloud + 0.0003 * grit - 0.002 * crack
-    rough = 0.26 + 0.34 * smooth(0.35, 0.65, wear) + 0.1 * grit
-    return Surface(2.5, height, colour, rough, 0 * crack, 1 - 0.5 * crack)
+    cloud, grit, wear = z.fbm(3, octaves=3), z.fbm(40, octaves=3), z.fbm(4, octaves=3)
+    colour = blend((0.25, 0.24, 0.22), (0.37, 0.355, 0.33), smooth(0.25, 0.75, cloud)) * (0.9 + 0.2 * grit)[..., None]
+    height = 0.0006 * cloud + 0.00015 * grit
+    rough = 0.22 + 0.30 * smooth(0.30, 0.70, wear) + 0.06 * grit
+    return Surface(2.5, height, colour, rough, 0 * cloud, 1 + 0 * cloud)
+
+
+def chart_surface():
+    """An old sea chart: land, shoals, a coast line, meridians and a compass rose's rays."""
+    z = Noise(111)
+    wx, wy = z.warped(5, 0.08)
+    land = z.fbm(2, 3, 6, 0.52, wx, wy)
+    age, grit = z.fbm(4, octaves=4), z.fbm(40, octaves=2)
+    colour = blend((0.36, 0.40, 0.335), (0.47, 0.47, 0.36), smooth(0.40, 0.50, land))
+    colour = blend(colour, blend((0.60, 0.45, 0.235), (0.40, 0.30, 0.15), smooth(0.55, 0.75, land)), smooth(0.510, 0.516, land))
+    grid = np.minimum(np.abs(z.x * 12 % 1 - 0.5), np.abs(z.y * 12 % 1 - 0.5))
+    rays = np.abs(np.sin(8 * np.arctan2(z.y - 0.36, z.x - 0.27))) * np.hypot(z.x - 0.27, z.y - 0.36)
+    ink = 0.75 * smooth(0.008, 0.003, np.abs(land - 0.512)) + 0.25 * smooth(0.03, 0.012, grid) + 0.3 * smooth(0.020, 0.010, rays)
+    colour = blend(colour, (0.09, 0.055, 0.03), np.clip(ink, 0, 0.85)) * (0.65 + 0.55 * age + 0.1 * grit)[..., None]
+    return Surface(1.3, 0.0006 * age + 0.0002 * grit, colour, 0.62 + 0.2 * age, 0 * age, 1 + 0 * age)
 
 
 def make_materials(g):
     """Every material of the scene by name."""
     surfaces = {"brick": brick_surface(), "plaster": plaster_surface(), "floor": floor_surface(), "wood": wood_surface(),
-                "steel": steel_surface(), "gold": gold_surface(), "stone": stone_surface(), "concrete": concrete_surface()}
+                "steel": steel_surface(), "gold": gold_surface(), "stone": stone_surface(), "concrete": concrete_surface(), "chart": chart_surface()}
     maps = {name: g.surface(name, s) for name, s in surfaces.items()}
     mats = {name: g.material(name, m, GOLD if name == "gold" else (1, 1, 1)) for name, m in maps.items()}
     shared, coats = paint_surfaces()
@@ -211,8 +222,8 @@ def make_materials(g):
     for name, colour in coats.items():
         base = g.texture("paint_%s_base" % name, sg.to_srgb(colour))
         mats["paint_" + name] = g.material("paint_" + name, dict(common, base=base))
-    mats["wood_dark"] = g.material("wood_dark", maps["wood"], (0.55, 0.5, 0.48), rough=0.9)
-    mats["brass"] = g.material("brass", maps["gold"], (0.91, 0.72, 0.38), rough=1.35 if False else 1.0)
+    mats["wood_dark"] = g.material("wood_dark", maps["wood"], (0.60, 0.54, 0.50), rough=0.9)
+    mats["brass"] = g.material("brass", maps["gold"], (0.91, 0.72, 0.38), rough=1.0)
     mats["enamel"] = g.material("enamel", base=(0.75, 0.73, 0.68), rough=0.35)
     mats["iron_black"] = g.material("iron_black", base=(0.035, 0.034, 0.033), rough=0.45)
     mats["bulb"] = g.material("bulb", base=(0.8, 0.8, 0.8), rough=0.4, emit=(1.0, 0.80, 0.55), nits=450.0)
@@ -299,7 +310,7 @@ def room_shell(room):
             if 0 < along < max(abs(right[0]), abs(right[2])):
                 doors.append((along, width, height))
         walls.append(wall(start, right, h, metres, doors))
-    lines = lambda length: np.linspace(0, length, round(length / 0.16) + 1)
+    lines = lambda length: np.linspace(0, length, round(length / 0.2) + 1)
     ground = plane((x0, 0, z1), (dx, 0, 0), (0, 0, -dz), 2.0 if floor == "floor" else 2.5, lines(dx), lines(dz))
     top = plane((x0, h, z0), (dx, 0, 0), (0, 0, dz), 2.0, grid_lines(dx, 0.8), grid_lines(dz, 0.8))
     return {"walls": merge(*walls), "floor": ground, "ceiling": top}
@@ -378,10 +389,10 @@ def build_trims(g, mats):
 
 def rivet(radius=0.018):
     """A dome on Y = 0."""
-    a = np.linspace(0, math.pi / 2, 4)
+    a = np.linspace(0, math.pi / 2, 3)
     q = radius * stack(np.cos(a), 0.7 * np.sin(a))
     q[-1, 0] = 0
-    return lathe([q], 8, 0.5)
+    return lathe([q], 6, 0.5)
 
 
 def steel_column(height):
@@ -402,10 +413,10 @@ def steel_column(height):
 
 def pendant_lamp():
     """A conical shade hanging from the origin upwards: (shade, lining, bulb, rod)."""
-    outer = lathe([spline([(0.27, 0.0), (0.24, 0.055), (0.14, 0.145), (0.065, 0.185)], 5),
-                   spline([(0.065, 0.185), (0.055, 0.24), (0.03, 0.27)], 3)], 36, 1.5)
-    lining = lathe([spline([(0.06, 0.17), (0.135, 0.135), (0.235, 0.048), (0.262, 0.0)], 5), [(0.262, 0.0), (0.27, 0.0)]], 36, 1.5)
-    bulb = sg.sphere(0.058, 20, 12, 0.4).moved(0, 0.085, 0)
+    outer = lathe([spline([(0.27, 0.0), (0.24, 0.055), (0.14, 0.145), (0.065, 0.185)], 4),
+                   spline([(0.065, 0.185), (0.055, 0.24), (0.03, 0.27)], 3)], 28, 1.5)
+    lining = lathe([spline([(0.06, 0.17), (0.135, 0.135), (0.235, 0.048), (0.262, 0.0)], 4), [(0.262, 0.0), (0.27, 0.0)]], 28, 1.5)
+    bulb = sg.sphere(0.058, 16, 10, 0.4).moved(0, 0.085, 0)
     rod = merge(lathe([[(0.014, 0.26), (0.014, 1.18)]], 10, 0.6),
                 lathe([[(0.05, 1.16), (0.09, 1.20), (0.09, 1.25)], [(0.0, 1.16), (0.05, 1.16)]], 20, 0.6))
     return outer, lining, bulb, rod
@@ -421,6 +432,15 @@ def cage_lamp():
     body.append(ring(0.083, 0.006, 24, 0.6).moved(0, -0.09, 0))
     glass = sg.sphere(0.065, 20, 12, 0.4).scaled(1, 1.35, 1).moved(0, -0.075, 0)
     return merge(*body), glass
+
+
+def spot_can():
+    """A short display spot at the origin, shining along -Z: (body, lens)."""
+    body = lathe([[(0.0, 0.10), (0.05, 0.10)], [(0.05, 0.10), (0.062, 0.08), (0.062, -0.12)], [(0.062, -0.12), (0.054, -0.12)], [(0.054, -0.12), (0.054, -0.09)]][1:], 24, 0.6)
+    back = lathe([[(0.05, 0.10), (0.0, 0.10)]], 24, 0.6)
+    lens = lathe([[(0.0, 0.09), (0.054, 0.09)][::-1]], 24, 0.4)
+    stem = tube([(0, 0, 0.0), (0, 0.28, 0.0)], 0.012, 8, 0.6)
+    return merge(merge(body, back).turned((1, 0, 0), 90), stem), lens.turned((1, 0, 0), -90)
 
 
 def wood_crate(size=0.9):
@@ -519,15 +539,13 @@ def stool():
 
 def urn(height=0.5):
     """A turned vessel with a lip, open at the top."""
-    outer = spline([(0.16, 0.0), (0.17, 0.03), (0.08, 0.08), (0.06, 0.14), (0.16, 0.26), (0.29, 0.48), (0.30, 0.64), (0.20, 0.84), (0.13, 0.92), (0.17, 1.0)], 6)
-    inner = spline([(0.16, 1.0), (0.12, 0.92), (0.18, 0.83), (0.25, 0.7)], 4)
+    outer = spline([(0.16, 0.0), (0.17, 0.03), (0.08, 0.08), (0.06, 0.14), (0.16, 0.26), (0.29, 0.48), (0.30, 0.64), (0.20, 0.84), (0.13, 0.92), (0.17, 1.0)], 4)
+    inner = spline([(0.16, 1.0), (0.12, 0.92), (0.18, 0.83), (0.25, 0.7)], 3)
     handles = []
     for s in (-1, 1):
-        path = spline([(s * 0.285, 0.62, 0), (s * 0.40, 0.74, 0), (s * 0.36, 0.90, 0), (s * 0.22, 0.88, 0), (s * 0.16, 0.88, 0)], 5)
-        handles.append(tube(path, 0.022, 10, 0.6))
-    foot = lathe([[(0.0, 0.0), (0.16, 0.0)]], 40, 0.6).turned((1, 0, 0), 180)
-    del foot                                        # it stands on a plinth: nobody sees below
-    whole = merge(lathe([outer, [(0.17, 1.0), (0.16, 1.0)], inner], 48, 0.6), *handles)
+        path = spline([(s * 0.285, 0.62, 0), (s * 0.40, 0.74, 0), (s * 0.36, 0.90, 0), (s * 0.22, 0.88, 0), (s * 0.16, 0.88, 0)], 4)
+        handles.append(tube(path, 0.022, 8, 0.6))
+    whole = merge(lathe([outer, [(0.17, 1.0), (0.16, 1.0)], inner], 32, 0.6), *handles)
     return whole.scaled(height)
 
 
@@ -549,7 +567,7 @@ def band(radius, width, thick=0.012):
     w, t, b = width / 2, thick, 0.003
     outer = [(radius - b, -w), (radius, -w + b), (radius, w - b), (radius - b, w)]
     inner = [(radius - t + b, w), (radius - t, w - b), (radius - t, -w + b), (radius - t + b, -w)]
-    return lathe([outer, [outer[-1], inner[0]], inner, [inner[-1], outer[0]]], 72, 0.6)
+    return lathe([outer, [outer[-1], inner[0]], inner, [inner[-1], outer[0]]], 56, 0.6)
 
 
 def plinth(width=0.7, height=0.8):
@@ -564,7 +582,7 @@ def bird():
     ys = np.array([0.0, 0.10, 0.22, 0.40, 0.80, 1.15, 1.50, 1.75, 1.90])
     rs = np.array([0.13, 0.075, 0.045, 0.085, 0.165, 0.185, 0.135, 0.06, 0.004])
     xs = np.array([0.0, 0.0, 0.0, -0.015, -0.05, -0.045, 0.01, 0.06, 0.10])
-    curve = spline(stack(ys, rs, xs), 12)
+    curve = spline(stack(ys, rs, xs), 7)
     arc = np.linspace(0, 1, len(curve))
 
     def fn(u, v):
@@ -674,13 +692,13 @@ def shelf():
 
 
 def picture(width=1.3, height=0.95):
-    """A framed panel facing +x on Y = 0 at its middle: (gold frame, panel)."""
+    """A framed panel facing +x on Y = 0 at its middle: (gold frame, chart)."""
     frame = []
     for s in (-1, 1):
         frame.append(box((0.05, 0.09, width + 0.18), (0.028, s * (height / 2 + 0.045), 0), 0.02, 0.6, 2))
         frame.append(box((0.05, height, 0.09), (0.028, 0, s * (width / 2 + 0.045)), 0.02, 0.6, 1))
         frame.append(box((0.03, 0.03, width), (0.018, s * (height / 2 - 0.012), 0), 0.01, 0.6, 2))
-    return merge(*frame), box((0.02, height, width), (0.012, 0, 0), 0.0, 2.0)
+    return merge(*frame), plane((0.02, -height / 2, width / 2), (0, 0, -width), (0, height, 0), width)
 
 
 # ---------------------------------------------------------------- furnishing
@@ -700,9 +718,10 @@ class Stage:
     def put(self, kind, name, at, turn=0, scale=None, stands=False):
         """Place one; `stands` adds its footprint."""
         mesh, half = self.kinds[kind]
-        self.g.node(name, at, turn if turn else None, scale, mesh=mesh)
+        self.g.node(name, at, turn if np.any(turn) else None, scale, mesh=mesh)
         if stands:
             s = scale if np.isscalar(scale) else 1.0
+            turn = turn if np.isscalar(turn) else 0
             c, n = abs(math.cos(math.radians(turn))), abs(math.sin(math.radians(turn)))
             hx, hz = s * (half[0] * c + half[2] * n), s * (half[0] * n + half[2] * c)
             shrink = 1.0 if turn % 90 == 0 else 0.8
@@ -746,7 +765,9 @@ def register(stage):
     stage.kind("lantern", brass=brass, flame=flame)
     stage.kind("shelf", paint_green=shelf())
     frame, panel = picture()
-    stage.kind("picture", gold=frame, wood_dark=panel)
+    stage.kind("picture", gold=frame, chart=panel)
+    can, lens = spot_can()
+    stage.kind("spot_can", iron_black=can, bulb=lens)
     stage.kind("beam", wood_dark=box((8.0, 0.30, 0.24), (0, 0, 0), 0.02, 1.6, 0))
     stage.kind("purlin", wood_dark=box((0.14, 0.16, 12.0), (0, 0, 0), 0.012, 1.6, 2))
     stage.kind("rail", steel=box((0.03, 0.10, 4.9), (0, 0, 0), 0.006, 1.0, 2))
@@ -766,16 +787,17 @@ def furnish_hall(s):
     for k, at in enumerate(LAMPS):
         s.put("pendant", "pendant_%d" % k, at)
     s.put("plinth", "armillary_plinth", (0.75, 0, -2.7), stands=True)
-    s.put("armillary", "armillary", (0.75, 0.8, -2.7), 25)
+    s.put("armillary", "armillary", (0.75, 0.8, -2.7), 25, 1.25)
+    s.put("spot_can", "armillary_can", ARMILLARY_SPOT, sg.aim(np.subtract((0.75, 1.7, -2.7), ARMILLARY_SPOT)))
     s.put("sliding_door", "sliding_door", (3.90, 0.03, -4.22))
     s.put("rail", "sliding_door_rail", (3.90, 2.86, -3.1))
-    for k, z in enumerate((0.95, 2.2)):
+    for k, z in enumerate((0.65, 1.86)):
         s.put("lockers", "lockers_%d" % k, (-3.74, 0, z), stands=True)
-    s.put("pipe_wide", "pipe_west", (-3.86, 3.15, -2.6))
-    s.put("elbow", "pipe_west_elbow", (-3.86, 3.15, 2.80))
-    s.put("pipe_drop", "pipe_west_drop", (-3.86, 2.93, 3.02), sg.quaternion((1, 0, 0), 90))
-    s.put("pipe_thin", "pipe_west_thin", (-3.92, 3.42, -2.6))
-    s.put("valve", "valve_west", (-3.80, 1.45, 3.02))
+    s.put("pipe_wide", "pipe_west", (-3.86, 3.15, -2.95))
+    s.put("elbow", "pipe_west_elbow", (-3.86, 3.15, 2.45))
+    s.put("pipe_drop", "pipe_west_drop", (-3.86, 2.93, 2.67), sg.quaternion((1, 0, 0), 90))
+    s.put("pipe_thin", "pipe_west_thin", (-3.92, 3.42, -2.95))
+    s.put("valve", "valve_west", (-3.80, 1.45, 2.67))
     s.put("table", "table", (1.95, 0, 2.35), 14, stands=True)
     s.put("lantern", "lantern", (1.35, 0.783, 2.42), 30)
     s.put("urn", "urn_table", (2.15, 0.783, 2.22), 60, 0.75)
@@ -844,7 +866,7 @@ def furnish_vault(s):
 
 def build_yard(g, mats):
     """What the doorway shows: paving, a low wall, posts, a tank against the sky."""
-    ground = plane((4.3, -0.03, 20), (40, 0, 0), (0, 0, -44), 2.5, np.linspace(0, 40, 21), np.linspace(0, 44, 23))
+    ground = plane((4.3, -0.03, 20), (60, 0, 0), (0, 0, -80), 2.5, np.linspace(0, 60, 21), np.linspace(0, 80, 27))
     g.node("yard_ground", mesh=g.mesh("yard_ground", (ground, mats["concrete"])))
     facade = wall((4.3, -0.03, 6.3), (0, 0, -12.6), 4.8, 1.6, [(8.3, 2.0, 2.73)])
     g.node("yard_facade", mesh=g.mesh("yard_facade", (facade, mats["brick"])))
@@ -854,12 +876,18 @@ def build_yard(g, mats):
     posts += [box((0.05, 0.05, 28), (20.6, y, -6), 0.0, 1.5, 2) for y in (1.5, 2.1)]
     g.node("yard_fence", mesh=g.mesh("yard_fence", (merge(*posts), mats["paint_green"])))
     tank = lathe([[(1.6, 3.0), (1.6, 5.6)], [(1.6, 5.6), (0.0, 6.4)]], 32, 1.5)
+    shed = merge(box((6, 3.2, 9), (36, 1.6, -13), 0.02, 1.6), box((0.9, 9, 0.9), (35, 4.5, -10.5), 0.02, 1.6, 1))
+    g.node("yard_shed", mesh=g.mesh("yard_shed", (shed, mats["brick"])))
     legs = [box((0.14, 3.1, 0.14), (x, 1.5, z), 0.0, 1.5, 1) for x in (-1, 1) for z in (-1, 1)]
     base = lathe([[(0.0, 3.0), (1.6, 3.0)]], 32, 1.5)
-    g.node("yard_tank", (34, 0, -23.0), mesh=g.mesh("yard_tank", (merge(tank, base, *legs), mats["steel"])))
+    g.node("yard_tank", (30, 0, -28.5), mesh=g.mesh("yard_tank", (merge(tank, base, *legs), mats["steel"])))
 
 
 # ---------------------------------------------------------------- light
+
+# Stand-ins for the first bounce, to be dropped once the rooms' probes are baked.
+FILLS = [("hall_north", (0.0, 2.5, -3.2), 95.0, 5.6), ("hall_south", (-0.4, 2.5, 4.3), 120.0, 6.4), ("corridor", (-2.0, 1.9, -9.3), 22.0, 3.6),
+         ("store", (-7.1, 2.0, -3.0), 75.0, 4.4), ("vault", (-2.0, 2.6, -14.6), 120.0, 6.2)]
 
 SUN_ELEVATION, SUN_AZIMUTH = 23.0, 24.0         # degrees; azimuth from +x towards -z
 SUN_COLOUR = (1.0, 0.80, 0.56)
@@ -876,21 +904,25 @@ def build_lights(g):
 
     The sun is a narrow spot far out in the yard whose cone just fills the doorway."""
     for k, (x, y, z) in enumerate(LAMPS):
-        g.light("lamp_%d" % k, "spot", (x, y + 0.02, z), (0, -1, 0), WARM, 620.0, 5.5, (18, 43))
+        g.light("lamp_%d" % k, "spot", (x, y + 0.02, z), (0, -1, 0), WARM, 1100.0, 5.5, (16, 43))
     to_sun, door = sun_direction(), np.array([4.15, 1.35, -2.0])
-    g.light("sun_shaft", "spot", door + 16.0 * to_sun, -to_sun, SUN_COLOUR, 260000.0, 30.0, (2.7, 3.7))
-    g.light("sun_yard", "spot", (23.0, 9.0, -9.0), (-10.0, -9.0, 4.0), SUN_COLOUR, 90000.0, 19.0, (28, 40))
+    g.light("sun_shaft", "spot", door + 16.0 * to_sun, -to_sun, SUN_COLOUR, 330000.0, 30.0, (2.7, 3.7))
+    g.light("sun_yard", "spot", (23.0, 9.0, -9.0), (-10.0, -9.0, 4.0), SUN_COLOUR, 24000.0, 19.0, (28, 40))
     g.light("sky_door", "point", (4.6, 2.2, -2.0), None, (0.75, 0.86, 1.0), 90.0, 5.0)
-    g.light("lantern_light", "point", (1.35, 0.92, 2.42), None, TUNGSTEN, 45.0, 3.2)
+    at = np.array(ARMILLARY_SPOT)
+    g.light("armillary_spot", "spot", at, np.array((0.75, 1.5, -2.7)) - at, WARM, 1500.0, 5.5, (10, 20))
+    for name, at, cd, reach in FILLS:
+        g.light("fill_" + name, "point", at, None, (1.0, 0.86, 0.70), cd, reach)
+    g.light("lantern_light", "point", (1.35, 0.92, 2.42), None, TUNGSTEN, 60.0, 3.4)
     for k, z in enumerate((-7.8, -10.9)):
-        g.light("cage_lamp_light_%d" % k, "spot", (-2.0, 2.70, z), (0, -1, 0), WARM, 240.0, 3.6, (30, 62))
-    g.light("store_lamp_light", "spot", (-7.1, 3.08, -3.0), (0, -1, 0), WARM, 420.0, 4.6, (25, 58))
-    g.light("lantern_store_light", "point", (-5.1, 1.04, -0.7), None, TUNGSTEN, 40.0, 2.6)
+        g.light("cage_lamp_light_%d" % k, "spot", (-2.0, 2.70, z), (0, -1, 0), WARM, 380.0, 3.6, (30, 62))
+    g.light("store_lamp_light", "spot", (-7.1, 3.08, -3.0), (0, -1, 0), WARM, 800.0, 4.6, (25, 60))
+    g.light("lantern_store_light", "point", (-5.1, 1.04, -0.7), None, TUNGSTEN, 60.0, 2.8)
     bird_at = np.array([-2.0, 1.6, -16.2])
-    for name, at, cd in (("left", (-4.2, 3.15, -14.0), 900.0), ("right", (0.3, 3.15, -14.2), 700.0)):
+    for name, at, cd in (("left", (-4.2, 3.15, -14.0), 1500.0), ("right", (0.3, 3.15, -14.2), 1200.0)):
         g.light("statue_spot_" + name, "spot", at, bird_at - at, WARM, cd, 7.0, (12, 24))
-    g.light("vault_lamp_light_0", "spot", (-4.2, 3.17, -15.9), (0, -1, 0), WARM, 380.0, 5.5, (20, 48))
-    g.light("vault_lamp_light_1", "spot", (0.2, 3.17, -15.9), (0, -1, 0), WARM, 380.0, 5.5, (20, 48))
+    g.light("vault_lamp_light_0", "spot", (-4.2, 3.17, -15.9), (0, -1, 0), WARM, 700.0, 5.5, (20, 48))
+    g.light("vault_lamp_light_1", "spot", (0.2, 3.17, -15.9), (0, -1, 0), WARM, 700.0, 5.5, (20, 48))
     g.light("sunburst_glow", "point", (-2.0, 2.75, -18.2), None, TUNGSTEN, 40.0, 3.0)
 
 
@@ -903,14 +935,14 @@ def sky(width=512, height=256):
     flat = np.clip((d[..., 0] * to_sun[0] + d[..., 2] * to_sun[2]) / max(1e-6, math.hypot(to_sun[0], to_sun[2])), -1, 1)
     low = np.exp(-np.maximum(up, 0) / 0.22)
     dome = blend((2.6, 4.4, 8.6), (8.0, 8.2, 9.5), low)
-    glow = (low * (0.5 + 0.5 * flat) ** 3)[..., None] * np.array((64.0, 36.0, 17.0))
-    halo = (near ** 24)[..., None] * np.array((70.0, 46.0, 24.0)) + (near ** 400)[..., None] * np.array((420.0, 300.0, 170.0))
+    glow = (low * (0.5 + 0.5 * flat) ** 3)[..., None] * np.array((19.0, 9.4, 4.2))
+    halo = (near ** 24)[..., None] * np.array((34.0, 19.0, 8.5)) + (near ** 400)[..., None] * np.array((420.0, 300.0, 170.0))
     z = Noise(110, 512)
     wrap = np.arange(width) * 512 // width
-    cloud = smooth(0.50, 0.72, z.fbm(5, 14, 5)[:height * 512 // width * 1, :][np.arange(height) % 512][:, wrap])
+    cloud = smooth(0.50, 0.72, z.fbm(5, 14, 5)[np.arange(height) * 2][:, wrap])
     cloud = cloud * smooth(0.03, 0.2, up) * smooth(0.95, 0.5, up)
-    lit = dome * 0.75 + glow * 1.25 + 2.0
-    above = blend(dome + glow, lit, 0.6 * cloud) + halo * (1 - 0.5 * cloud)[..., None]
+    lit = dome * 0.5 + glow * 0.62 + np.array((2.6, 1.7, 2.0))
+    above = blend(dome + glow, lit, 0.85 * cloud) + halo * (1 - 0.5 * cloud)[..., None]
     ground = np.array((1.7, 1.45, 1.2)) * (1.0 + 0.8 * np.exp(np.minimum(up, 0) / 0.1) * (0.4 + flat.clip(0)))[..., None]
     return blend(ground, above, smooth(-0.012, 0.012, up))
 
@@ -919,7 +951,7 @@ def sky(width=512, height=256):
 
 def build_views(g):
     """`hero` first, then one camera a room; a probe in the middle of each."""
-    g.camera("hero", (-2.75, 1.62, 5.35), (0.62, 1.36, -3.2), 52.0)
+    g.camera("hero", (-2.75, 1.62, 5.35), (0.62, 1.27, -3.2), 52.0)
     g.camera("hall", (3.0, 1.70, -5.2), (-1.5, 1.25, 3.5), 58.0)
     g.camera("corridor", (-1.75, 1.60, -5.2), (-2.05, 1.50, -14.0), 50.0)
     g.camera("store", (-4.9, 1.65, -4.6), (-8.6, 0.95, -1.9), 62.0)
