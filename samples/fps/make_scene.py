@@ -47,7 +47,7 @@ OPENINGS = {
     "corridor": ("z", -6.3, -2.0, 1.7, 2.35),
     "vault": ("z", -12.6, -2.0, 1.7, 2.35),
 }
-ARMILLARY_SPOT = (-0.7, 3.55, -0.35)
+ARMILLARY_SPOT = (-0.7, 3.52, 0.12)
 LAMPS = [(-2.0, 2.95, -3.7), (2.0, 2.95, -3.7), (-2.0, 2.95, 1.3), (2.0, 2.95, 1.3)]
 WARM, TUNGSTEN = (1.0, 0.83, 0.62), (1.0, 0.64, 0.32)
 
@@ -310,7 +310,7 @@ def room_shell(room):
             if 0 < along < max(abs(right[0]), abs(right[2])):
                 doors.append((along, width, height))
         walls.append(wall(start, right, h, metres, doors))
-    lines = lambda length: np.linspace(0, length, round(length / 0.2) + 1)
+    lines = lambda length: np.linspace(0, length, round(length / 0.25) + 1)
     ground = plane((x0, 0, z1), (dx, 0, 0), (0, 0, -dz), 2.0 if floor == "floor" else 2.5, lines(dx), lines(dz))
     top = plane((x0, h, z0), (dx, 0, 0), (0, 0, dz), 2.0, grid_lines(dx, 0.8), grid_lines(dz, 0.8))
     return {"walls": merge(*walls), "floor": ground, "ceiling": top}
@@ -428,9 +428,9 @@ def cage_lamp():
     for k in range(4):
         a = np.linspace(-math.pi / 2, math.pi / 2, 13)
         arc = stack(0.085 * np.sin(a), -0.05 - 0.115 * np.cos(a), 0 * a)
-        body.append(tube(arc, 0.006, 6, 0.6).turned((0, 1, 0), 45 * k))
+        body.append(tube(arc, 0.006, 5, 0.6).turned((0, 1, 0), 45 * k))
     body.append(ring(0.083, 0.006, 24, 0.6).moved(0, -0.09, 0))
-    glass = sg.sphere(0.065, 20, 12, 0.4).scaled(1, 1.35, 1).moved(0, -0.075, 0)
+    glass = sg.sphere(0.065, 16, 10, 0.4).scaled(1, 1.35, 1).moved(0, -0.075, 0)
     return merge(*body), glass
 
 
@@ -454,7 +454,7 @@ def wood_crate(size=0.9):
                 dims[axis], at[axis] = 0.025, s * (h - 0.035)
                 dims[across] = (size - 0.08) / 4 - 0.008
                 at[across] = (k - 1.5) * (size - 0.08) / 4
-                parts.append(box(dims, at, 0.004, 1.6, 3 - axis - across))
+                parts.append(box(dims, at, 0.0, 1.6, 3 - axis - across))
     for axis in range(3):
         a, b = (axis + 1) % 3, (axis + 2) % 3
         for sa in (-1, 1):
@@ -492,7 +492,7 @@ def barrel():
     side += [(0.288, 0.84), (0.30, 0.855), (0.30, 0.872), (0.29, 0.88)]
     lid = [(0.29, 0.88), (0.278, 0.876), (0.272, 0.855)]
     bung = lathe([[(0.035, 0.85), (0.035, 0.868)], [(0.035, 0.868), (0.0, 0.868)]], 12, 1.5).moved(0.16, 0, 0.05)
-    return merge(lathe([side, lid, [(0.272, 0.855), (0.0, 0.855)]], 40, 1.5), bung)
+    return merge(lathe([side, lid, [(0.272, 0.855), (0.0, 0.855)]], 32, 1.5), bung)
 
 
 def lockers():
@@ -545,7 +545,7 @@ def urn(height=0.5):
     for s in (-1, 1):
         path = spline([(s * 0.285, 0.62, 0), (s * 0.40, 0.74, 0), (s * 0.36, 0.90, 0), (s * 0.22, 0.88, 0), (s * 0.16, 0.88, 0)], 4)
         handles.append(tube(path, 0.022, 8, 0.6))
-    whole = merge(lathe([outer, [(0.17, 1.0), (0.16, 1.0)], inner], 32, 0.6), *handles)
+    whole = merge(lathe([outer, [(0.17, 1.0), (0.16, 1.0)], inner], 28, 0.6), *handles)
     return whole.scaled(height)
 
 
@@ -567,7 +567,7 @@ def band(radius, width, thick=0.012):
     w, t, b = width / 2, thick, 0.003
     outer = [(radius - b, -w), (radius, -w + b), (radius, w - b), (radius - b, w)]
     inner = [(radius - t + b, w), (radius - t, w - b), (radius - t, -w + b), (radius - t + b, -w)]
-    return lathe([outer, [outer[-1], inner[0]], inner, [inner[-1], outer[0]]], 56, 0.6)
+    return lathe([outer, [outer[-1], inner[0]], inner, [inner[-1], outer[0]]], 48, 0.6)
 
 
 def plinth(width=0.7, height=0.8):
@@ -582,15 +582,15 @@ def bird():
     ys = np.array([0.0, 0.10, 0.22, 0.40, 0.80, 1.15, 1.50, 1.75, 1.90])
     rs = np.array([0.13, 0.075, 0.045, 0.085, 0.165, 0.185, 0.135, 0.06, 0.004])
     xs = np.array([0.0, 0.0, 0.0, -0.015, -0.05, -0.045, 0.01, 0.06, 0.10])
-    curve = spline(stack(ys, rs, xs), 7)
+    curve = spline(stack(ys, rs, xs), 5)
     arc = np.linspace(0, 1, len(curve))
 
     def fn(u, v):
         y, r, x = (np.interp(v, arc, curve[:, k]) for k in range(3))
         a = u * sg.TAU
         return stack(x + r * np.sin(a), y, 0.72 * r * np.cos(a))
-    mesh = sg.patch(fn, 48, len(curve) - 1, 2, 4)
-    return smooth_normals(mesh, 49)
+    mesh = sg.patch(fn, 40, len(curve) - 1, 2, 4)
+    return smooth_normals(mesh, 41)
 
 
 def smooth_normals(mesh, row):
@@ -880,7 +880,7 @@ def build_yard(g, mats):
     g.node("yard_shed", mesh=g.mesh("yard_shed", (shed, mats["brick"])))
     legs = [box((0.14, 3.1, 0.14), (x, 1.5, z), 0.0, 1.5, 1) for x in (-1, 1) for z in (-1, 1)]
     base = lathe([[(0.0, 3.0), (1.6, 3.0)]], 32, 1.5)
-    g.node("yard_tank", (30, 0, -28.5), mesh=g.mesh("yard_tank", (merge(tank, base, *legs), mats["steel"])))
+    g.node("yard_tank", (30, 0, -28.5), mesh=g.mesh("yard_tank", (merge(tank, base, *legs), mats["paint_red"])))
 
 
 # ---------------------------------------------------------------- light
