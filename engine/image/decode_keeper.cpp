@@ -67,7 +67,7 @@ int spawn(const std::filesystem::path& helper, int socket, pid_t& pid) {
 }
 
 std::string startFailure(const std::filesystem::path& helper) {
-  return fmt::format("the decode helper {} ended before it was ready", helper.string());
+  return fmt::format("the decode helper {} did not get ready", helper.string());
 }
 
 }  // namespace
@@ -114,7 +114,7 @@ bool DecodeKeeper::awaitReady() {
   if (ready_) return true;
   KeeperAnswer answer;
   ready_ = receiveMessage(socket_.get(), &answer, sizeof answer, std::chrono::steady_clock::now() + kStartTime) == Receipt::Message &&
-           answer.command == KeeperCommand::Ready;
+           answer.command == KeeperCommand::Ready && answer.status == kDecodeLayout;
   return ready_;
 }
 
@@ -156,7 +156,7 @@ Result<Worker> DecodeKeeper::fork(const std::filesystem::path& helper, std::uint
     }
     stop();  // it was killed, or is stuck: once more with a new one
   }
-  return fail("decoder pool", startFailure(helper), "run it by hand to see what it says, for example about missing libraries");
+  return fail("decoder pool", startFailure(helper), "install the one that came with this library; run it by hand to see whether it misses libraries");
 }
 
 int DecodeKeeper::end(Worker& worker) {

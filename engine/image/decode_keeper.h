@@ -41,7 +41,7 @@ class DecodeKeeper {
   /// start(), waiting for it if need be (up to a minute on a machine that starts cold), then a new worker. Starts the program
   /// anew, once, when it turns out to be gone.
   Result<Worker> fork(const std::filesystem::path& helper, std::uint64_t memoryBytes);
-  /// Ends a worker for good. Returns its wait status, or -1 when that is not known any more; 0 also when it was still running.
+  /// Ends a worker for good. Returns its wait status (SIGKILL when it was still running), or -1 when that is not known any more.
   int end(Worker& worker);
   void stop();
 

@@ -34,7 +34,7 @@ struct KeeperAnswer {
   std::uint32_t magic = kDecodeMagic;
   KeeperCommand command = KeeperCommand::Ready;  ///< which command this answers
   std::int32_t pid = 0;                          ///< Fork: the worker, or -1
-  std::int32_t status = 0;                       ///< End: as waitpid gives it. Fork that failed: errno
+  std::int32_t status = 0;                       ///< Ready: kDecodeLayout. End: as waitpid gives it. Fork that failed: errno
 };
 
 struct DecodeRequest {
@@ -52,7 +52,11 @@ struct DecodeAnswer {
   std::uint32_t ok = 0;
   std::int32_t width = 0, height = 0, channels = 0;
   std::uint32_t type = 0;  ///< PixelType
-  char text[232] = {};     ///< what is wrong, when not ok; ends in a zero
+  char what[232] = {};    ///< Error::what and Error::remedy, when not ok; each ends in a zero
+  char remedy[128] = {};
 };
+
+/// Tells a helper of another build apart, which would misread every message.
+inline constexpr std::int32_t kDecodeLayout = sizeof(DecodeRequest) << 16 | sizeof(DecodeAnswer) << 4 | 1;
 
 }  // namespace burnish::image

@@ -60,7 +60,7 @@ bool fillMemory(int fd, std::span<const std::byte> file, std::uint64_t totalByte
   return true;
 }
 
-/// What ended a worker, in words. `status` as waitpid gives it; 0 and -1: it ended without telling.
+/// What ended a worker, in words. `status` as waitpid gives it; 0 and -1: it ended without a signal.
 Error deathOf(int status, std::string_view name, double seconds) {
   if (status > 0 && WIFSIGNALED(status)) {
     const int signal = WTERMSIG(status);
@@ -187,8 +187,8 @@ class DecoderPool final : public ImageDecoder {
 
   /// Copies the pixels out. The answer is believed no more than the file was: sizes are checked against what was asked for.
   Result<Image> takePicture(Worker& worker, const DecodeRequest& request, DecodeAnswer& answer, std::string_view name, const DecodeLimits& limits) {
-    answer.text[sizeof answer.text - 1] = 0;
-    if (!answer.ok) return fail(std::string(name), answer.text, "export the picture again, or in another of the formats PNG, JPEG, HDR, EXR");
+    answer.what[sizeof answer.what - 1] = answer.remedy[sizeof answer.remedy - 1] = 0;
+    if (!answer.ok) return fail(std::string(name), answer.what, answer.remedy);
     const bool sane = answer.width > 0 && answer.width <= limits.maxSide && answer.height > 0 && answer.height <= limits.maxSide &&
                       answer.channels >= 1 && answer.channels <= 4 && answer.type <= static_cast<std::uint32_t>(PixelType::F32);
     Image picture{answer.width, answer.height, answer.channels, static_cast<PixelType>(answer.type), {}};

@@ -93,7 +93,7 @@ struct Mapped {
 
 DecodeAnswer decode(const DecodeRequest& request) {
   DecodeAnswer answer;
-  Error error{"", "there is no memory to decode it", ""};
+  Error error{"", "there is no memory to decode it", "make the picture smaller"};
   const Mapped file(request.fileBytes, PROT_READ, 0);
   const Mapped pixels(request.pixelCapacity, PROT_READ | PROT_WRITE, static_cast<off_t>(request.pixelOffset));
   if (file.ok() && pixels.ok()) {
@@ -108,7 +108,8 @@ DecodeAnswer decode(const DecodeRequest& request) {
     }
     error = decoded.error();
   }
-  std::strncpy(answer.text, error.what.c_str(), sizeof answer.text - 1);
+  std::strncpy(answer.what, error.what.c_str(), sizeof answer.what - 1);
+  std::strncpy(answer.remedy, error.remedy.c_str(), sizeof answer.remedy - 1);
   return answer;
 }
 
@@ -178,8 +179,7 @@ KeeperAnswer endWorker(pid_t pid) {
   KeeperAnswer answer{kDecodeMagic, KeeperCommand::End, pid, 0};
   if (pid > 0 && ::waitpid(pid, &answer.status, WNOHANG) == 0) {
     ::kill(pid, SIGKILL);
-    ::waitpid(pid, &answer.status, 0);
-    answer.status = 0;  // it was alive until now
+    ::waitpid(pid, &answer.status, 0);  // the true reason where it was dying already: its socket closes before it can be waited for
   }
   return answer;
 }
@@ -189,7 +189,7 @@ int keep() {
   limit(RLIMIT_CORE, 0, 0);
   if (::chdir("/") != 0) return 1;
   decode::prepareOpenImageIo();
-  if (!sendMessage(kKeeperSocket, KeeperAnswer{})) return 0;
+  if (!sendMessage(kKeeperSocket, KeeperAnswer{kDecodeMagic, KeeperCommand::Ready, 0, kDecodeLayout})) return 0;
   OrderWithDescriptors received;
   while (receiveOrder(received)) {
     const bool isFork = received.order.command == KeeperCommand::Fork;

@@ -57,7 +57,7 @@ struct DecoderPoolOptions {
   std::filesystem::path helper;  ///< the `burnish-decode` program; empty: beside the running program, then the install folder
   int processes = 2;             ///< workers at most; started when first needed, reused, ended with the pool; a call waits for a free one
   bool startNow = false;         ///< starts the helper at once, in the background, so that its loading (160 ms of CPU) passes while you work
-  std::uint64_t memoryBytes = 2048ull * 1024 * 1024;  ///< address-space limit of each helper beyond its start-up size
+  std::uint64_t memoryBytes = 2048ull * 1024 * 1024;  ///< address-space limit of each worker beyond its start-up size; 64 MB go to the library
 };
 
 /// Decoding in helper processes with memory and time limits, so that a damaged picture costs one error and never the program. Nothing
