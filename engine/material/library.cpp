@@ -3,7 +3,7 @@
 // Dielectrics: the index of refraction at 589 nm. Conductors: reflectance at normal incidence, ((n-1)² + k²) / ((n+1)² + k²), from the optical constants
 // named in the row (as collected by refractiveindex.info, public domain), integrated from 380 to 700 nm over illuminant D65 with the CIE 1931 observer (the
 // fit of Wyman, Sloan and Shirley, "Simple Analytic Approximations to the CIE XYZ Color Matching Functions", 2013), brought to linear Rec.709 and clamped
-// to [0, 1] (gold's red is 1.04: it lies outside the gamut). tests/unit/material_conductors.cpp does the integral again.
+// to [0, 1] (gold's red is 1.04: it lies outside the gamut). tests/unit/material_substances_test.cpp does the integral again.
 #include <burnish/material.h>
 
 #include <algorithm>

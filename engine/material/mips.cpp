@@ -1,6 +1,6 @@
-// Map B follows Toksvig, "Mipmapping Normal Maps" (2005): the average of unit normals is shorter the more they differ, and that widens the lobe. Lobe widths
-// add as variances of slope: alpha'² = alpha² + 2 σ² (Kaplanyan et al., "Filtering Distributions of Normals for Shading Antialiasing", 2016, section 4;
-// Tokuyoshi and Kaplanyan 2019). σ² comes from the mean length r by the von Mises-Fisher fit κ = r (3 - r²) / (1 - r²) (Banerjee et al. 2005), σ² = 1/κ.
+// Map B follows Toksvig, "Mipmapping Normal Maps" (2005): the average of unit normals is shorter the more they differ, and that widens the lobe. His
+// 1/p' = 1/p + (1 - r)/r, with r the mean length and 1/p = alpha²/2 the lobe's variance of slope, is alpha'² = alpha² + 2 σ², σ² = (1 - r)/r: variances add
+// (Kaplanyan et al., "Filtering Distributions of Normals for Shading Antialiasing", 2016, section 4; Tokuyoshi and Kaplanyan 2019).
 #include "material/mips.h"
 
 #include "image/convert.h"
@@ -188,9 +188,8 @@ std::vector<Image> single(Image image) {
 
 float spreadFromMeanLength(float length) {
   const float r = std::clamp(length, 0.0f, 1.0f);
-  if (r < 0.5f) return 1;  // 2 / κ passes 1 at r = 0.53, and alpha is capped at 1
-  const float missing = 1 - r * r - 1e-6f;  // the floats' rounding: equal normals must not widen anything
-  return missing > 0 ? 2 * missing / (r * (3 - r * r)) : 0.0f;
+  if (r < 2.0f / 3) return 1;  // alpha is capped at 1
+  return 2 * std::max(1 - r - 5e-7f, 0.0f) / r;  // less the floats' rounding: equal normals must not widen anything
 }
 
 std::vector<Image> buildMips(MapKind kind, Image level0) {

@@ -15,7 +15,7 @@ namespace burnish::material {
 /// `level0` must be U8 with the channels that <burnish/scene.h> names for the kind; anything else comes back as a single level.
 std::vector<Image> buildMips(MapKind kind, Image level0);
 
-/// Added to alpha² for normals whose average has length `length` in [0,1]: 2 σ², σ² = 1/κ of the von Mises-Fisher lobe with that mean length.
+/// Added to alpha² for normals whose average has length `length` in [0,1]: 2 σ², σ² = (1 - length)/length, at most 1.
 float spreadFromMeanLength(float length);
 
 }  // namespace burnish::material

@@ -167,27 +167,29 @@ class Builder {
     }
     // What a corner without a tangent of its own group falls back on: any tangent at the same vertex.
     for (std::uint32_t c = 0; c < mesh_.indices.size(); ++c)
-      if (glm::dot(sum_[group_[c]], sum_[group_[c]]) > 1e-12f) anyAt_.try_emplace(welded(c), group_[c]);
+      if (hasTangent(group_[c])) anyAt_.try_emplace(welded(c), group_[c]);
   }
-  /// The unit vector along the part of `v` at right angles to `n`; zero when there is none.
+  /// Sums that cancel out leave rounding, which points anywhere.
+  [[nodiscard]] bool hasTangent(std::uint32_t group) const { return glm::dot(sum_[group], sum_[group]) > 1e-8f; }
+  /// The unit vector along the part of `v` at right angles to `n`; zero when there is none but rounding (n is unit to 1e-7).
   static glm::vec3 projected(const glm::vec3& v, const glm::vec3& n) {
     const glm::dvec3 p = glm::dvec3(v) - glm::dvec3(n) * glm::dot(glm::dvec3(n), glm::dvec3(v));
     const double length = glm::length(p);
-    return length > 1e-12 * (1 + glm::length(glm::dvec3(v))) ? glm::vec3(p / length) : glm::vec3(0);
+    return length > 1e-5 * glm::length(glm::dvec3(v)) ? glm::vec3(p / length) : glm::vec3(0);
   }
 
   /// glTF's bitangent w · n × t points up the texture, against v; where (u, v) turn with the triangle, n × dP/du points along v.
   [[nodiscard]] glm::vec4 tangentOf(std::uint32_t corner) const {
     std::uint32_t group = group_[corner];
     bool preserving = faces_[corner / 3].preserving;
-    if (glm::dot(sum_[group], sum_[group]) <= 1e-12f) {
+    const glm::vec3 n = mesh_.normals[mesh_.indices[corner]];
+    if (!hasTangent(group)) {
       const auto any = anyAt_.find(welded(corner));
-      const glm::vec3 n = mesh_.normals[mesh_.indices[corner]];
       if (any == anyAt_.end()) return {perpendicular(n), 1};
       group = any->second;
       preserving = faces_[group / 3].preserving;  // a group is named after one of its corners
     }
-    return {glm::normalize(sum_[group]), preserving ? -1.0f : 1.0f};
+    return {projected(sum_[group], n), preserving ? -1.0f : 1.0f};
   }
 
   /// Writes the corners' tangents to the vertices; a vertex whose corners differ is split.
