@@ -10,7 +10,8 @@
 namespace burnish {
 namespace {
 
-constexpr const char* kRemedy = "install a driver with OpenGL 4.5 core (Mesa 22 or newer has one for every machine), or use OSMesa";
+constexpr const char* kRemedy =
+    "install a driver with OpenGL 4.5 core (Mesa 22 or newer has one for every machine), or use OSMesa";
 
 template <class F>
 F function(const ProcAddress& get, const char* name) {
@@ -44,7 +45,8 @@ struct Reader {
 
 bool isSoftware(const std::string& renderer) {
   static constexpr const char* kNames[] = {"llvmpipe", "softpipe", "swrast", "SwiftShader", "Software Rasterizer"};
-  return std::any_of(std::begin(kNames), std::end(kNames), [&](const char* n) { return renderer.find(n) != std::string::npos; });
+  return std::any_of(std::begin(kNames), std::end(kNames),
+                     [&](const char* n) { return renderer.find(n) != std::string::npos; });
 }
 
 void readLimits(const Reader& gl, Capabilities& caps) {
@@ -64,9 +66,12 @@ void readLimits(const Reader& gl, Capabilities& caps) {
 void readExtensions(const Reader& gl, Capabilities& caps) {
   const int count = gl.integer(GL_NUM_EXTENSIONS);
   for (int i = 0; i < count; ++i)
-    if (const GLubyte* s = gl.getStringi(GL_EXTENSIONS, GLuint(i))) caps.extensions.emplace_back(reinterpret_cast<const char*>(s));
+    if (const GLubyte* s = gl.getStringi(GL_EXTENSIONS, GLuint(i)))
+      caps.extensions.emplace_back(reinterpret_cast<const char*>(s));
   std::sort(caps.extensions.begin(), caps.extensions.end());
-  const auto has = [&](const char* name) { return std::binary_search(caps.extensions.begin(), caps.extensions.end(), name); };
+  const auto has = [&](const char* name) {
+    return std::binary_search(caps.extensions.begin(), caps.extensions.end(), name);
+  };
   const bool core46 = caps.major > 4 || (caps.major == 4 && caps.minor >= 6);
   caps.anisotropic = core46 || has("GL_ARB_texture_filter_anisotropic") || has("GL_EXT_texture_filter_anisotropic");
   caps.parallelCompile = has("GL_KHR_parallel_shader_compile") || has("GL_ARB_parallel_shader_compile");
@@ -75,13 +80,15 @@ void readExtensions(const Reader& gl, Capabilities& caps) {
   caps.programBinary = gl.integer(GL_NUM_PROGRAM_BINARY_FORMATS) > 0;
 }
 
-/// Not needed: extensions, and the robust getters (glGetnTexImage...). Mesa's libglapi lists the latter nowhere and hands out one of 256 spare slots for each
-/// unknown name; GLVND's EGL takes all of those, so OSMesa in the same process is left without them.
+/// Not needed: extensions, and the robust getters (glGetnTexImage...). Mesa's libglapi lists the latter nowhere and
+/// hands out one of 256 spare slots for each unknown name; GLVND's EGL takes all of those, so OSMesa in the same
+/// process is left without them.
 bool isOptional(std::string_view name) {
   return name.ends_with("ARB") || name.ends_with("EXT") || name.ends_with("KHR") || name.starts_with("glGetn");
 }
 
-/// Core functions up to 4.5 that the driver has no address for. glad's loader asks for every one of them by name, so the list is the registry's own.
+/// Core functions up to 4.5 that the driver has no address for. glad's loader asks for every one of them by name, so
+/// the list is the registry's own.
 std::string missingFunctions(const ProcAddress& get) {
   struct Asked {
     const ProcAddress& get;
@@ -98,12 +105,20 @@ std::string missingFunctions(const ProcAddress& get) {
   return asked.missing;
 }
 
-/// The required minima of OpenGL 4.5 that the engine builds on; a driver that is below one is broken, but saying so beats a wrong picture.
+/// The required minima of OpenGL 4.5 that the engine builds on; a driver that is below one is broken, but saying so
+/// beats a wrong picture.
 Result<void> checkMinima(const std::string& place, const Capabilities& caps) {
-  if (caps.maxTextureSize < 4096) return fail(place, fmt::format("textures of {} texels a side at most found, 4096 needed", caps.maxTextureSize), kRemedy);
-  if (caps.maxTextureUnits < 16) return fail(place, fmt::format("{} texture units found, 16 needed", caps.maxTextureUnits), kRemedy);
-  if (caps.maxUniformBlockBytes < 16384) return fail(place, fmt::format("uniform blocks of {} bytes found, 16384 needed", caps.maxUniformBlockBytes), kRemedy);
-  if (caps.maxTextureBufferTexels < 65536) return fail(place, fmt::format("buffer textures of {} texels found, 65536 needed", caps.maxTextureBufferTexels), kRemedy);
+  if (caps.maxTextureSize < 4096)
+    return fail(place, fmt::format("textures of {} texels a side at most found, 4096 needed", caps.maxTextureSize),
+                kRemedy);
+  if (caps.maxTextureUnits < 16)
+    return fail(place, fmt::format("{} texture units found, 16 needed", caps.maxTextureUnits), kRemedy);
+  if (caps.maxUniformBlockBytes < 16384)
+    return fail(place, fmt::format("uniform blocks of {} bytes found, 16384 needed", caps.maxUniformBlockBytes),
+                kRemedy);
+  if (caps.maxTextureBufferTexels < 65536)
+    return fail(place, fmt::format("buffer textures of {} texels found, 65536 needed", caps.maxTextureBufferTexels),
+                kRemedy);
   return {};
 }
 
@@ -120,22 +135,28 @@ std::string describeCurrent(const ProcAddress& get) {
 }  // namespace context
 
 Result<Capabilities> queryCapabilities(const ProcAddress& getProcAddress) {
-  if (!getProcAddress) return fail("OpenGL", "no getProcAddress function was given", "pass the one of the window library");
+  if (!getProcAddress)
+    return fail("OpenGL", "no getProcAddress function was given", "pass the one of the window library");
   const Reader gl(getProcAddress);
-  if (!gl.complete()) return fail("OpenGL", "getProcAddress does not know glGetString, glGetStringi or glGetIntegerv (OpenGL 3 or newer)", kRemedy);
+  if (!gl.complete())
+    return fail("OpenGL", "getProcAddress does not know glGetString, glGetStringi or glGetIntegerv (OpenGL 3 or newer)",
+                kRemedy);
   Capabilities caps;
   caps.vendor = gl.text(GL_VENDOR);
   caps.renderer = gl.text(GL_RENDERER);
   caps.version = gl.text(GL_VERSION);
-  if (caps.version.empty()) return fail("OpenGL", "no context is current on this thread", "make the context current first");
+  if (caps.version.empty())
+    return fail("OpenGL", "no context is current on this thread", "make the context current first");
   const std::string place = fmt::format("OpenGL {} on {}", caps.version, caps.renderer);
-  if (caps.version.rfind("OpenGL ES", 0) == 0) return fail(place, "OpenGL ES found, desktop OpenGL 4.5 core needed", kRemedy);
+  if (caps.version.rfind("OpenGL ES", 0) == 0)
+    return fail(place, "OpenGL ES found, desktop OpenGL 4.5 core needed", kRemedy);
   caps.major = gl.integer(GL_MAJOR_VERSION);
   caps.minor = gl.integer(GL_MINOR_VERSION);
   if (caps.major < 4 || (caps.major == 4 && caps.minor < 5))
     return fail(place, fmt::format("OpenGL {}.{} found, 4.5 core needed", caps.major, caps.minor), kRemedy);
   caps.software = isSoftware(caps.renderer);
-  if (const std::string missing = missingFunctions(getProcAddress); !missing.empty()) return fail(place, "functions are missing: " + missing, kRemedy);
+  if (const std::string missing = missingFunctions(getProcAddress); !missing.empty())
+    return fail(place, "functions are missing: " + missing, kRemedy);
   readLimits(gl, caps);
   readExtensions(gl, caps);
   if (auto ok = checkMinima(place, caps); !ok) return fail(ok.error());

@@ -2,8 +2,9 @@
 //   EGL_MESA_platform_surfaceless    Mesa, newer NVIDIA
 //   EGL_EXT_platform_device          NVIDIA: one display for each device
 //   the default display, a pbuffer   everything else (X11, Wayland)
-// Where surfaceless gives a software renderer and the machine has a device of its own, the device is preferred (unless LIBGL_ALWAYS_SOFTWARE is set).
-// A display is never terminated: EGL shares it with everyone in the process, the host included, and eglTerminate would take their contexts too.
+// Where surfaceless gives a software renderer and the machine has a device of its own, the device is preferred (unless
+// LIBGL_ALWAYS_SOFTWARE is set). A display is never terminated: EGL shares it with everyone in the process, the host
+// included, and eglTerminate would take their contexts too.
 #define EGL_NO_X11
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
@@ -63,7 +64,8 @@ Result<EglApi> openApi() {
   load(api.makeCurrent, "eglMakeCurrent");
   load(api.getCurrentContext, "eglGetCurrentContext");
   load(api.getError, "eglGetError");
-  if (missing) return fail("EGL", fmt::format("the library lacks {}", missing), "install a current EGL: apt-get install libegl1");
+  if (missing)
+    return fail("EGL", fmt::format("the library lacks {}", missing), "install a current EGL: apt-get install libegl1");
   return api;
 }
 
@@ -87,15 +89,18 @@ class EglContextOf final : public Context {
     api_.destroyContext(display_, context_);
   }
   Result<void> makeCurrent() override {
-    release();  // EGL skips the work when it thinks that the context is current, which another library (OSMesa) may have changed behind its back
+    release();  // EGL skips the work when it thinks that the context is current, which another library (OSMesa) may
+                // have changed behind its back
     api_.bindApi(EGL_OPENGL_API);  // per thread
     if (!api_.makeCurrent(display_, surface_, surface_, context_))
-      return fail("EGL", fmt::format("the context cannot be made current (EGL error {:#x})", api_.getError()), "release it on the thread that has it");
+      return fail("EGL", fmt::format("the context cannot be made current (EGL error {:#x})", api_.getError()),
+                  "release it on the thread that has it");
     return {};
   }
   void release() override {
     api_.bindApi(EGL_OPENGL_API);
-    if (api_.getCurrentContext() == context_) api_.makeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    if (api_.getCurrentContext() == context_)
+      api_.makeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
   }
   [[nodiscard]] ProcAddress procAddress() const override {
     return [get = api_.getProcAddress](const char* name) { return reinterpret_cast<void*>(get(name)); };
@@ -110,10 +115,14 @@ class EglContextOf final : public Context {
 };
 
 EGLContext tryCreate(const EglApi& api, EGLDisplay display, EGLConfig config, int major, int minor, bool debug) {
-  const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION, major,
-                               EGL_CONTEXT_MINOR_VERSION, minor,
-                               EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                               EGL_CONTEXT_OPENGL_DEBUG, debug ? EGL_TRUE : EGL_FALSE,
+  const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
+                               major,
+                               EGL_CONTEXT_MINOR_VERSION,
+                               minor,
+                               EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                               EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                               EGL_CONTEXT_OPENGL_DEBUG,
+                               debug ? EGL_TRUE : EGL_FALSE,
                                EGL_NONE};
   return api.createContext(display, config, EGL_NO_CONTEXT, attributes);
 }
@@ -129,18 +138,29 @@ Result<std::unique_ptr<Context>> openOn(const EglApi& api, EGLDisplay display, c
     return fail(place, "neither EGL 1.5 nor EGL_KHR_create_context, which core profiles need");
   if (!api.bindApi(EGL_OPENGL_API)) return fail(place, "desktop OpenGL is missing, OpenGL 4.5 core needed");
   const bool surfaceless = has(extensions, "EGL_KHR_surfaceless_context");
-  const EGLint wanted[] = {EGL_SURFACE_TYPE, surfaceless ? 0 : EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT,
-                           EGL_RED_SIZE, 8, EGL_GREEN_SIZE, 8, EGL_BLUE_SIZE, 8, EGL_NONE};
+  const EGLint wanted[] = {EGL_SURFACE_TYPE,
+                           surfaceless ? 0 : EGL_PBUFFER_BIT,
+                           EGL_RENDERABLE_TYPE,
+                           EGL_OPENGL_BIT,
+                           EGL_RED_SIZE,
+                           8,
+                           EGL_GREEN_SIZE,
+                           8,
+                           EGL_BLUE_SIZE,
+                           8,
+                           EGL_NONE};
   EGLConfig config = nullptr;
   EGLint count = 0;
   if (!api.chooseConfig(display, wanted, &config, 1, &count) || count < 1) {
-    if (!surfaceless || !has(extensions, "EGL_KHR_no_config_context")) return fail(place, "no configuration for OpenGL with 8-bit colour");
+    if (!surfaceless || !has(extensions, "EGL_KHR_no_config_context"))
+      return fail(place, "no configuration for OpenGL with 8-bit colour");
     config = nullptr;  // EGL_NO_CONFIG_KHR
   }
   EGLContext context = tryCreate(api, display, config, 4, 5, debug);
   const bool enough = context != EGL_NO_CONTEXT;
   if (!enough) context = tryCreate(api, display, config, 3, 2, false);  // only to say what there is
-  if (context == EGL_NO_CONTEXT) return fail(place, fmt::format("no OpenGL core context (EGL error {:#x}), 4.5 core needed", api.getError()));
+  if (context == EGL_NO_CONTEXT)
+    return fail(place, fmt::format("no OpenGL core context (EGL error {:#x}), 4.5 core needed", api.getError()));
   EGLSurface surface = EGL_NO_SURFACE;
   if (!surfaceless) {
     const EGLint size[] = {EGL_WIDTH, 16, EGL_HEIGHT, 16, EGL_NONE};
@@ -160,10 +180,13 @@ bool isSoftware(const Context& context) {
 /// The displays of the machine's own devices (software ones left out).
 std::vector<EGLDisplay> deviceDisplays(const EglApi& api, const char* clientExtensions) {
   std::vector<EGLDisplay> displays;
-  const auto getDisplay = reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(api.getProcAddress("eglGetPlatformDisplayEXT"));
+  const auto getDisplay =
+      reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(api.getProcAddress("eglGetPlatformDisplayEXT"));
   const auto queryDevices = reinterpret_cast<PFNEGLQUERYDEVICESEXTPROC>(api.getProcAddress("eglQueryDevicesEXT"));
-  const auto queryDeviceString = reinterpret_cast<PFNEGLQUERYDEVICESTRINGEXTPROC>(api.getProcAddress("eglQueryDeviceStringEXT"));
-  const bool enumerates = has(clientExtensions, "EGL_EXT_device_base") || has(clientExtensions, "EGL_EXT_device_enumeration");
+  const auto queryDeviceString =
+      reinterpret_cast<PFNEGLQUERYDEVICESTRINGEXTPROC>(api.getProcAddress("eglQueryDeviceStringEXT"));
+  const bool enumerates =
+      has(clientExtensions, "EGL_EXT_device_base") || has(clientExtensions, "EGL_EXT_device_enumeration");
   if (!getDisplay || !queryDevices || !enumerates || !has(clientExtensions, "EGL_EXT_platform_device")) return displays;
   EGLDeviceEXT devices[16];
   EGLint count = 0;
@@ -184,13 +207,17 @@ Result<std::unique_ptr<Context>> createEgl(const ContextOptions& options) {
   const auto note = [&](const Error& e) { tried += (tried.empty() ? "" : "; ") + e.message(); };
 
   std::unique_ptr<Context> software;
-  const auto platformDisplay = reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(api->getProcAddress("eglGetPlatformDisplayEXT"));
+  const auto platformDisplay =
+      reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(api->getProcAddress("eglGetPlatformDisplayEXT"));
   if (platformDisplay && has(client, "EGL_MESA_platform_surfaceless")) {
-    const EGLDisplay display = platformDisplay(EGL_PLATFORM_SURFACELESS_MESA, reinterpret_cast<void*>(EGL_DEFAULT_DISPLAY), nullptr);
+    const EGLDisplay display =
+        platformDisplay(EGL_PLATFORM_SURFACELESS_MESA, reinterpret_cast<void*>(EGL_DEFAULT_DISPLAY), nullptr);
     auto made = openOn(*api, display, "surfaceless", options.debug);
     if (made && (std::getenv("LIBGL_ALWAYS_SOFTWARE") || !isSoftware(**made))) return made;
-    if (made) software = std::move(*made);
-    else note(made.error());
+    if (made)
+      software = std::move(*made);
+    else
+      note(made.error());
   } else {
     note({"EGL (surfaceless)", "EGL_MESA_platform_surfaceless is missing", ""});
   }

@@ -1,4 +1,5 @@
-// A window through GLFW. GLFW is for the process's main thread: create, present and destroy windows there; other threads may only make the context current.
+// A window through GLFW. GLFW is for the process's main thread: create, present and destroy windows there; other
+// threads may only make the context current.
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <fmt/format.h>
@@ -16,8 +17,8 @@ std::string glfwProblem() {
   return code == GLFW_NO_ERROR ? "GLFW gives no reason" : fmt::format("GLFW says: {}", text ? text : "unknown error");
 }
 
-/// Initialises GLFW while anyone uses it. GLFW has one state per process, so this count must be per process too: the engine's one exception to "no globals".
-/// Where the host had initialised GLFW before, the host goes on owning it.
+/// Initialises GLFW while anyone uses it. GLFW has one state per process, so this count must be per process too: the
+/// engine's one exception to "no globals". Where the host had initialised GLFW before, the host goes on owning it.
 class GlfwUse {
  public:
   static Result<std::shared_ptr<GlfwUse>> acquire() {
@@ -29,7 +30,8 @@ class GlfwUse {
     (void)glfwGetTime();
     const bool ours = glfwGetError(nullptr) == GLFW_NOT_INITIALIZED;
     if (ours && !glfwInit())
-      return fail("GLFW", glfwProblem(), "set DISPLAY to a running X server (or start under xvfb-run), or use egl or osmesa");
+      return fail("GLFW", glfwProblem(),
+                  "set DISPLAY to a running X server (or start under xvfb-run), or use egl or osmesa");
     auto use = std::shared_ptr<GlfwUse>(new GlfwUse(ours));
     shared = use;
     return use;
@@ -56,7 +58,9 @@ class GlfwContextOf final : public Context {
     release();  // as in egl.cpp: GLX and EGL skip the work when they think that the context is current
     glfwGetError(nullptr);
     glfwMakeContextCurrent(window_);
-    if (glfwGetCurrentContext() != window_) return fail("GLFW", "the context cannot be made current: " + glfwProblem(), "release it on the thread that has it");
+    if (glfwGetCurrentContext() != window_)
+      return fail("GLFW", "the context cannot be made current: " + glfwProblem(),
+                  "release it on the thread that has it");
     return {};
   }
   void release() override {
@@ -95,7 +99,8 @@ GLFWwindow* tryCreate(const ContextOptions& options, int major, int minor, bool 
 
 Result<std::unique_ptr<Context>> createGlfw(const ContextOptions& options) {
   if (options.width < 1 || options.height < 1)
-    return fail("GLFW", fmt::format("a {}x{} window was asked for", options.width, options.height), "use positive sizes");
+    return fail("GLFW", fmt::format("a {}x{} window was asked for", options.width, options.height),
+                "use positive sizes");
   auto use = GlfwUse::acquire();
   if (!use) return fail(use.error());
   const std::string place = options.glfwEgl ? "GLFW (EGL)" : "GLFW (GLX)";
@@ -108,10 +113,14 @@ Result<std::unique_ptr<Context>> createGlfw(const ContextOptions& options) {
   }
   const std::string problem = glfwProblem();
   GLFWwindow* lesser = tryCreate(options, 3, 2, false);
-  if (!lesser) return fail(place, "no window with an OpenGL core context: " + problem, "install a driver (apt-get install libgl1-mesa-dri libegl-mesa0), or use egl or osmesa");
+  if (!lesser)
+    return fail(place, "no window with an OpenGL core context: " + problem,
+                "install a driver (apt-get install libgl1-mesa-dri libegl-mesa0), or use egl or osmesa");
   GlfwContextOf owner(std::move(*use), lesser);
-  const std::string found = owner.makeCurrent() ? describeCurrent(owner.procAddress()) : "a context that cannot be made current";
-  return fail(place, found + " found, 4.5 core needed (" + problem + ")", "install a newer driver, or use egl or osmesa");
+  const std::string found =
+      owner.makeCurrent() ? describeCurrent(owner.procAddress()) : "a context that cannot be made current";
+  return fail(place, found + " found, 4.5 core needed (" + problem + ")",
+              "install a newer driver, or use egl or osmesa");
 }
 
 }  // namespace burnish::context

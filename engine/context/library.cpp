@@ -13,7 +13,8 @@ Result<Library> Library::open(std::span<const char* const> names, std::string_vi
     const char* why = dlerror();
     tried += fmt::format("{}{}", tried.empty() ? "" : "; ", why ? why : name);
   }
-  return fail(names.front(), fmt::format("the library cannot be opened ({})", tried), fmt::format("install it: apt-get install {}", package));
+  return fail(names.front(), fmt::format("the library cannot be opened ({})", tried),
+              fmt::format("install it: apt-get install {}", package));
 }
 
 void* Library::symbol(const char* name) const { return dlsym(handle_, name); }

@@ -1,4 +1,5 @@
-// Shared libraries opened by name at run time, so that a machine without one gets a clear error in place of a program that does not start.
+// Shared libraries opened by name at run time, so that a machine without one gets a clear error in place of a program
+// that does not start.
 #pragma once
 #include <burnish/result.h>
 
@@ -6,7 +7,8 @@
 
 namespace burnish::context {
 
-/// An opened library. It is never closed: GL drivers leave threads and exit handlers behind, and closing one under them crashes.
+/// An opened library. It is never closed: GL drivers leave threads and exit handlers behind, and closing one under them
+/// crashes.
 class Library {
  public:
   /// Tries the names in order, with local symbols. `package`: what to install, for the error.

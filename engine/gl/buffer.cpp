@@ -13,7 +13,8 @@ Error noMemory(std::string_view label, std::size_t bytes) {
 
 }  // namespace
 
-Result<Buffer> Buffer::create(Device& device, BufferUse use, std::size_t bytes, const void* data, std::string_view label) {
+Result<Buffer> Buffer::create(Device& device, BufferUse use, std::size_t bytes, const void* data,
+                              std::string_view label) {
   const GladGLContext& gl = device.gl;
   const std::size_t size = std::max<std::size_t>(bytes, 4);
   const void* const contents = bytes >= 4 ? data : nullptr;
@@ -26,7 +27,8 @@ Result<Buffer> Buffer::create(Device& device, BufferUse use, std::size_t bytes, 
   if (use == BufferUse::Stream)
     gl.NamedBufferData(id, GLsizeiptr(size), contents, GL_STREAM_DRAW);
   else
-    gl.NamedBufferStorage(id, GLsizeiptr(size), contents, use == BufferUse::Dynamic || !contents ? GL_DYNAMIC_STORAGE_BIT : 0);
+    gl.NamedBufferStorage(id, GLsizeiptr(size), contents,
+                          use == BufferUse::Dynamic || !contents ? GL_DYNAMIC_STORAGE_BIT : 0);
   if (device.ranOutOfMemory()) return fail(noMemory(label, size));
   if (!contents && data && bytes) gl.NamedBufferSubData(id, 0, GLsizeiptr(bytes), data);  // under 4 bytes
   made.handle_.setBytes(std::int64_t(size));
@@ -35,7 +37,8 @@ Result<Buffer> Buffer::create(Device& device, BufferUse use, std::size_t bytes, 
 }
 
 void Buffer::subData(std::size_t offset, std::span<const std::byte> data) {
-  if (!data.empty()) handle_.device().gl.NamedBufferSubData(id(), GLintptr(offset), GLsizeiptr(data.size()), data.data());
+  if (!data.empty())
+    handle_.device().gl.NamedBufferSubData(id(), GLintptr(offset), GLsizeiptr(data.size()), data.data());
 }
 
 Result<void> Buffer::write(std::span<const std::byte> data) {
@@ -47,7 +50,8 @@ Result<void> Buffer::write(std::span<const std::byte> data) {
     size_ = grown;
     handle_.setBytes(std::int64_t(grown));
   } else {
-    gl.NamedBufferData(id(), GLsizeiptr(size_), nullptr, GL_STREAM_DRAW);  // orphan: the GPU keeps the old store while it reads it
+    gl.NamedBufferData(id(), GLsizeiptr(size_), nullptr,
+                       GL_STREAM_DRAW);  // orphan: the GPU keeps the old store while it reads it
   }
   subData(0, data);
   return {};
@@ -58,9 +62,12 @@ void Buffer::bindRange(GLenum target, GLuint index, std::size_t offset, std::siz
   handle_.device().gl.BindBufferRange(target, index, id(), GLintptr(offset), GLsizeiptr(bytes));
 }
 
-Result<TextureBuffer> TextureBuffer::create(Device& device, GLenum format, BufferUse use, std::size_t bytes, const void* data, std::string_view label) {
+Result<TextureBuffer> TextureBuffer::create(Device& device, GLenum format, BufferUse use, std::size_t bytes,
+                                            const void* data, std::string_view label) {
   const FormatInfo* info = formatInfo(format);
-  if (!info) return fail(fmt::format("buffer texture \"{}\"", label), fmt::format("format {:#x} is not in the engine's list", format), "add it to engine/gl/formats.cpp");
+  if (!info)
+    return fail(fmt::format("buffer texture \"{}\"", label),
+                fmt::format("format {:#x} is not in the engine's list", format), "add it to engine/gl/formats.cpp");
   TextureBuffer made;
   made.texelBytes_ = info->bytes;
   made.label_ = label;
@@ -70,8 +77,10 @@ Result<TextureBuffer> TextureBuffer::create(Device& device, GLenum format, Buffe
   made.handle_ = Handle(device, Handle::Kind::Texture, id);
   if (auto fits = made.checkSize(bytes); !fits) return fail(fits.error());
   // At least one texel, so that a fetch in a shader that needs none is still defined.
-  auto buffer = bytes >= std::size_t(info->bytes) ? Buffer::create(device, use, bytes, data, label)
-                                                  : Buffer::create(device, use == BufferUse::Static ? BufferUse::Dynamic : use, std::size_t(info->bytes), nullptr, label);
+  auto buffer = bytes >= std::size_t(info->bytes)
+                    ? Buffer::create(device, use, bytes, data, label)
+                    : Buffer::create(device, use == BufferUse::Static ? BufferUse::Dynamic : use,
+                                     std::size_t(info->bytes), nullptr, label);
   if (!buffer) return fail(buffer.error());
   made.buffer_ = std::move(*buffer);
   device.gl.TextureBuffer(id, format, made.buffer_.id());
@@ -83,7 +92,8 @@ Result<void> TextureBuffer::checkSize(std::size_t bytes) const {
   const auto texels = bytes / std::size_t(texelBytes_);
   const auto most = std::size_t(handle_.device().caps.maxTextureBufferTexels);
   if (texels > most)
-    return fail(fmt::format("buffer texture \"{}\"", label_), fmt::format("{} texels; this device has at most {}", texels, most), "use a smaller scene");
+    return fail(fmt::format("buffer texture \"{}\"", label_),
+                fmt::format("{} texels; this device has at most {}", texels, most), "use a smaller scene");
   return {};
 }
 
@@ -91,7 +101,8 @@ Result<void> TextureBuffer::write(std::span<const std::byte> data) {
   if (auto fits = checkSize(data.size()); !fits) return fits;
   const std::size_t before = buffer_.size();
   auto done = buffer_.write(data);
-  // A buffer texture covers its buffer's store; some drivers keep the size of the moment of attaching, so attach a grown one again.
+  // A buffer texture covers its buffer's store; some drivers keep the size of the moment of attaching, so attach a
+  // grown one again.
   if (done && buffer_.size() != before) handle_.device().gl.TextureBuffer(id(), format_, buffer_.id());
   return done;
 }

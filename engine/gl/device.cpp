@@ -12,15 +12,24 @@ constexpr int kErrorPolls = 16;         // a lost context returns an error for e
 
 const char* errorName(GLenum error) {
   switch (error) {
-    case GL_INVALID_ENUM: return "GL_INVALID_ENUM";
-    case GL_INVALID_VALUE: return "GL_INVALID_VALUE";
-    case GL_INVALID_OPERATION: return "GL_INVALID_OPERATION";
-    case GL_INVALID_FRAMEBUFFER_OPERATION: return "GL_INVALID_FRAMEBUFFER_OPERATION";
-    case GL_OUT_OF_MEMORY: return "GL_OUT_OF_MEMORY";
-    case GL_STACK_OVERFLOW: return "GL_STACK_OVERFLOW";
-    case GL_STACK_UNDERFLOW: return "GL_STACK_UNDERFLOW";
-    case GL_CONTEXT_LOST: return "GL_CONTEXT_LOST";
-    default: return "unknown GL error";
+    case GL_INVALID_ENUM:
+      return "GL_INVALID_ENUM";
+    case GL_INVALID_VALUE:
+      return "GL_INVALID_VALUE";
+    case GL_INVALID_OPERATION:
+      return "GL_INVALID_OPERATION";
+    case GL_INVALID_FRAMEBUFFER_OPERATION:
+      return "GL_INVALID_FRAMEBUFFER_OPERATION";
+    case GL_OUT_OF_MEMORY:
+      return "GL_OUT_OF_MEMORY";
+    case GL_STACK_OVERFLOW:
+      return "GL_STACK_OVERFLOW";
+    case GL_STACK_UNDERFLOW:
+      return "GL_STACK_UNDERFLOW";
+    case GL_CONTEXT_LOST:
+      return "GL_CONTEXT_LOST";
+    default:
+      return "unknown GL error";
   }
 }
 
@@ -34,7 +43,8 @@ Result<std::unique_ptr<Device>> Device::create(const ProcAddress& getProcAddress
   };
   GladGLContext table{};
   if (!gladLoadGLContextUserPtr(&table, load, const_cast<ProcAddress*>(&getProcAddress)) || !table.VERSION_4_5)
-    return fail("OpenGL " + caps->version, "the functions of OpenGL 4.5 core cannot be loaded", "install a driver with OpenGL 4.5 core");
+    return fail("OpenGL " + caps->version, "the functions of OpenGL 4.5 core cannot be loaded",
+                "install a driver with OpenGL 4.5 core");
   auto device = std::unique_ptr<Device>(new Device(table, std::move(*caps)));
   if (debugOutput) device->installCallback();
   return device;
@@ -63,7 +73,8 @@ void Device::installCallback() {
   callback_ = true;
 }
 
-void GLAD_API_PTR Device::onMessage(GLenum source, GLenum type, GLuint id, GLenum severity, GLsizei length, const GLchar* text, const void* user) {
+void GLAD_API_PTR Device::onMessage(GLenum source, GLenum type, GLuint id, GLenum severity, GLsizei length,
+                                    const GLchar* text, const void* user) {
   auto& self = *static_cast<Device*>(const_cast<void*>(user));
   if (self.hostCallback_) self.hostCallback_(source, type, id, severity, length, text, self.hostUser_);
   // What the shader compiler says is returned by ProgramCache as an error of its own, with files named.
@@ -82,8 +93,10 @@ bool Device::ranOutOfMemory() {
   for (int i = 0; i < kErrorPolls; ++i) {
     const GLenum error = gl.GetError();
     if (error == GL_NO_ERROR) break;
-    if (error == GL_OUT_OF_MEMORY) out = true;
-    else keepError(fmt::format("glGetError: {}", errorName(error)));
+    if (error == GL_OUT_OF_MEMORY)
+      out = true;
+    else
+      keepError(fmt::format("glGetError: {}", errorName(error)));
   }
   return out;
 }

@@ -1,4 +1,5 @@
-// One OpenGL context as the engine sees it: the function table, what it can do, what it complained about, and how much memory hangs on it.
+// One OpenGL context as the engine sees it: the function table, what it can do, what it complained about, and how much
+// memory hangs on it.
 #pragma once
 #include <burnish/context.h>
 #include <glad/gl.h>
@@ -12,21 +13,23 @@
 
 namespace burnish::gl {
 
-/// Per context; nothing is global. Every GL object of the engine keeps a pointer to its Device, so it must outlive them all.
-/// All members are for the thread on which the context is current.
+/// Per context; nothing is global. Every GL object of the engine keeps a pointer to its Device, so it must outlive them
+/// all. All members are for the thread on which the context is current.
 class Device {
  public:
-  /// The context must be current on this thread. debugOutput installs a KHR_debug callback that collects errors (and passes every message on to a
-  /// callback that the host had installed before); the host's comes back when the Device is destroyed.
+  /// The context must be current on this thread. debugOutput installs a KHR_debug callback that collects errors (and
+  /// passes every message on to a callback that the host had installed before); the host's comes back when the Device
+  /// is destroyed.
   static Result<std::unique_ptr<Device>> create(const ProcAddress& getProcAddress, bool debugOutput);
   ~Device();
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
 
-  const GladGLContext gl;   ///< gl.CreateTextures(...): GL's names without the prefix
+  const GladGLContext gl;  ///< gl.CreateTextures(...): GL's names without the prefix
   const Capabilities caps;
 
-  /// Debug messages of type error or of high severity, and what glGetError still held, since the last call; oldest first.
+  /// Debug messages of type error or of high severity, and what glGetError still held, since the last call; oldest
+  /// first.
   [[nodiscard]] std::vector<std::string> takeErrors();
   /// What the driver was asked to keep for textures and buffers that are alive, in bytes.
   [[nodiscard]] std::int64_t bytesAllocated() const { return textureBytes_ + bufferBytes_; }
@@ -49,7 +52,8 @@ class Device {
   Device(const GladGLContext& table, Capabilities capabilities);
   void installCallback();
   void keepError(std::string text);
-  static void GLAD_API_PTR onMessage(GLenum source, GLenum type, GLuint id, GLenum severity, GLsizei length, const GLchar* text, const void* user);
+  static void GLAD_API_PTR onMessage(GLenum source, GLenum type, GLuint id, GLenum severity, GLsizei length,
+                                     const GLchar* text, const void* user);
 
   std::int64_t textureBytes_ = 0, bufferBytes_ = 0;
   std::mutex mutex_;  ///< a driver may call back from a thread of its own

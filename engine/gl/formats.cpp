@@ -45,18 +45,21 @@ constexpr FormatInfo kFormats[] = {
 std::span<const FormatInfo> formats() { return kFormats; }
 
 const FormatInfo* formatInfo(GLenum format) {
-  const auto* found = std::find_if(std::begin(kFormats), std::end(kFormats), [&](const FormatInfo& f) { return f.format == format; });
+  const auto* found =
+      std::find_if(std::begin(kFormats), std::end(kFormats), [&](const FormatInfo& f) { return f.format == format; });
   return found == std::end(kFormats) ? nullptr : found;
 }
 
 const FormatInfo* formatInfo(std::string_view name) {
-  const auto* found = std::find_if(std::begin(kFormats), std::end(kFormats), [&](const FormatInfo& f) { return f.name == name; });
+  const auto* found =
+      std::find_if(std::begin(kFormats), std::end(kFormats), [&](const FormatInfo& f) { return f.name == name; });
   return found == std::end(kFormats) ? nullptr : found;
 }
 
 std::int64_t textureBytes(const FormatInfo& info, int width, int height, int layers, int levels) {
   std::int64_t texels = 0;
-  for (int level = 0; level < levels; ++level) texels += std::int64_t(std::max(1, width >> level)) * std::max(1, height >> level);
+  for (int level = 0; level < levels; ++level)
+    texels += std::int64_t(std::max(1, width >> level)) * std::max(1, height >> level);
   return texels * layers * info.bytes;
 }
 

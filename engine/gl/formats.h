@@ -9,11 +9,11 @@
 namespace burnish::gl {
 
 struct FormatInfo {
-  GLenum format = 0;         ///< GL_RGBA16F
-  std::string_view name;     ///< "RGBA16F", as FramePlan spells it
-  int bytes = 0;             ///< per texel as stored
-  GLenum external = 0;       ///< format of an upload or read that needs no conversion: GL_RGBA
-  GLenum type = 0;           ///< its type: GL_HALF_FLOAT
+  GLenum format = 0;      ///< GL_RGBA16F
+  std::string_view name;  ///< "RGBA16F", as FramePlan spells it
+  int bytes = 0;          ///< per texel as stored
+  GLenum external = 0;    ///< format of an upload or read that needs no conversion: GL_RGBA
+  GLenum type = 0;        ///< its type: GL_HALF_FLOAT
   [[nodiscard]] bool depth() const { return external == GL_DEPTH_COMPONENT || external == GL_DEPTH_STENCIL; }
   [[nodiscard]] bool stencil() const { return external == GL_DEPTH_STENCIL; }
 };

@@ -44,7 +44,9 @@ void setDefaults(const Device& device, bool keepLossy) {
     if (table[i].initial && !table[i].bulk && !(keepLossy && table[i].lossy)) table[i].set(gl, *table[i].initial);
 }
 
-HostStateGuard::HostStateGuard(const Device& device) : device_(device), saved_(captureState(device)) { setDefaults(device, true); }
+HostStateGuard::HostStateGuard(const Device& device) : device_(device), saved_(captureState(device)) {
+  setDefaults(device, true);
+}
 HostStateGuard::~HostStateGuard() { restoreState(device_, saved_); }
 
 }  // namespace burnish::gl

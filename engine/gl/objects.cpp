@@ -23,13 +23,27 @@ void Handle::reset() {
   setBytes(0);
   const GladGLContext& gl = device_->gl;
   switch (kind_) {
-    case Kind::Texture: gl.DeleteTextures(1, &id_); break;
-    case Kind::Buffer: gl.DeleteBuffers(1, &id_); break;
-    case Kind::Framebuffer: gl.DeleteFramebuffers(1, &id_); break;
-    case Kind::VertexArray: gl.DeleteVertexArrays(1, &id_); break;
-    case Kind::Sampler: gl.DeleteSamplers(1, &id_); break;
-    case Kind::Query: gl.DeleteQueries(1, &id_); break;
-    case Kind::Program: gl.DeleteProgram(id_); break;
+    case Kind::Texture:
+      gl.DeleteTextures(1, &id_);
+      break;
+    case Kind::Buffer:
+      gl.DeleteBuffers(1, &id_);
+      break;
+    case Kind::Framebuffer:
+      gl.DeleteFramebuffers(1, &id_);
+      break;
+    case Kind::VertexArray:
+      gl.DeleteVertexArrays(1, &id_);
+      break;
+    case Kind::Sampler:
+      gl.DeleteSamplers(1, &id_);
+      break;
+    case Kind::Query:
+      gl.DeleteQueries(1, &id_);
+      break;
+    case Kind::Program:
+      gl.DeleteProgram(id_);
+      break;
   }
   id_ = 0;
 }
@@ -44,15 +58,24 @@ namespace {
 
 const char* statusName(GLenum status) {
   switch (status) {
-    case GL_FRAMEBUFFER_UNDEFINED: return "undefined";
-    case GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT: return "an attachment is incomplete";
-    case GL_FRAMEBUFFER_INCOMPLETE_MISSING_ATTACHMENT: return "it has no attachment";
-    case GL_FRAMEBUFFER_INCOMPLETE_DRAW_BUFFER: return "a draw buffer has no attachment";
-    case GL_FRAMEBUFFER_INCOMPLETE_READ_BUFFER: return "the read buffer has no attachment";
-    case GL_FRAMEBUFFER_UNSUPPORTED: return "the driver does not support this combination of formats";
-    case GL_FRAMEBUFFER_INCOMPLETE_MULTISAMPLE: return "attachments differ in samples";
-    case GL_FRAMEBUFFER_INCOMPLETE_LAYER_TARGETS: return "layered and unlayered attachments are mixed";
-    default: return "unknown status";
+    case GL_FRAMEBUFFER_UNDEFINED:
+      return "undefined";
+    case GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT:
+      return "an attachment is incomplete";
+    case GL_FRAMEBUFFER_INCOMPLETE_MISSING_ATTACHMENT:
+      return "it has no attachment";
+    case GL_FRAMEBUFFER_INCOMPLETE_DRAW_BUFFER:
+      return "a draw buffer has no attachment";
+    case GL_FRAMEBUFFER_INCOMPLETE_READ_BUFFER:
+      return "the read buffer has no attachment";
+    case GL_FRAMEBUFFER_UNSUPPORTED:
+      return "the driver does not support this combination of formats";
+    case GL_FRAMEBUFFER_INCOMPLETE_MULTISAMPLE:
+      return "attachments differ in samples";
+    case GL_FRAMEBUFFER_INCOMPLETE_LAYER_TARGETS:
+      return "layered and unlayered attachments are mixed";
+    default:
+      return "unknown status";
   }
 }
 
@@ -69,8 +92,11 @@ std::string formatList(std::span<const Attachment> colors, const std::optional<A
 
 }  // namespace
 
-Result<Framebuffer> Framebuffer::create(Device& device, std::span<const Attachment> colors, const std::optional<Attachment>& depth, std::string_view label) {
-  if (colors.size() > 8) return fail(fmt::format("framebuffer \"{}\"", label), fmt::format("{} colour attachments", colors.size()), "use at most 8");
+Result<Framebuffer> Framebuffer::create(Device& device, std::span<const Attachment> colors,
+                                        const std::optional<Attachment>& depth, std::string_view label) {
+  if (colors.size() > 8)
+    return fail(fmt::format("framebuffer \"{}\"", label), fmt::format("{} colour attachments", colors.size()),
+                "use at most 8");
   const GladGLContext& gl = device.gl;
   GLuint id = 0;
   gl.CreateFramebuffers(1, &id);
@@ -99,7 +125,8 @@ Result<Framebuffer> Framebuffer::create(Device& device, std::span<const Attachme
   }
   const GLenum status = gl.CheckNamedFramebufferStatus(id, GL_DRAW_FRAMEBUFFER);
   if (status != GL_FRAMEBUFFER_COMPLETE)
-    return fail(fmt::format("framebuffer \"{}\"", label), fmt::format("incomplete: {} ({})", statusName(status), formatList(colors, depth)),
+    return fail(fmt::format("framebuffer \"{}\"", label),
+                fmt::format("incomplete: {} ({})", statusName(status), formatList(colors, depth)),
                 "this is a fault of the engine or of the driver: report it with the output of burnish doctor");
   device.label(GL_FRAMEBUFFER, id, label);
   return made;
@@ -107,8 +134,8 @@ Result<Framebuffer> Framebuffer::create(Device& device, std::span<const Attachme
 
 void Framebuffer::bind(GLenum target) const { handle_.device().gl.BindFramebuffer(target, id()); }
 
-VertexArray VertexArray::create(Device& device, std::span<const VertexAttribute> attributes, std::span<const VertexBinding> bindings, GLuint elements,
-                                std::string_view label) {
+VertexArray VertexArray::create(Device& device, std::span<const VertexAttribute> attributes,
+                                std::span<const VertexBinding> bindings, GLuint elements, std::string_view label) {
   const GladGLContext& gl = device.gl;
   GLuint id = 0;
   gl.CreateVertexArrays(1, &id);
@@ -189,9 +216,10 @@ std::uint64_t Query::result() const {
 namespace {
 
 constexpr std::array<GLenum, 16> kPixelStore = {
-    GL_UNPACK_SWAP_BYTES, GL_UNPACK_LSB_FIRST, GL_UNPACK_ROW_LENGTH, GL_UNPACK_IMAGE_HEIGHT, GL_UNPACK_SKIP_ROWS, GL_UNPACK_SKIP_PIXELS,
-    GL_UNPACK_SKIP_IMAGES, GL_UNPACK_ALIGNMENT, GL_PACK_SWAP_BYTES, GL_PACK_LSB_FIRST, GL_PACK_ROW_LENGTH, GL_PACK_IMAGE_HEIGHT,
-    GL_PACK_SKIP_ROWS, GL_PACK_SKIP_PIXELS, GL_PACK_SKIP_IMAGES, GL_PACK_ALIGNMENT};
+    GL_UNPACK_SWAP_BYTES, GL_UNPACK_LSB_FIRST,   GL_UNPACK_ROW_LENGTH,  GL_UNPACK_IMAGE_HEIGHT,
+    GL_UNPACK_SKIP_ROWS,  GL_UNPACK_SKIP_PIXELS, GL_UNPACK_SKIP_IMAGES, GL_UNPACK_ALIGNMENT,
+    GL_PACK_SWAP_BYTES,   GL_PACK_LSB_FIRST,     GL_PACK_ROW_LENGTH,    GL_PACK_IMAGE_HEIGHT,
+    GL_PACK_SKIP_ROWS,    GL_PACK_SKIP_PIXELS,   GL_PACK_SKIP_IMAGES,   GL_PACK_ALIGNMENT};
 
 }  // namespace
 
@@ -199,7 +227,8 @@ PixelStoreScope::PixelStoreScope(const Device& device) : device_(device) {
   const GladGLContext& gl = device.gl;
   for (std::size_t i = 0; i < kPixelStore.size(); ++i) {
     gl.GetIntegerv(kPixelStore[i], &values_[i]);
-    gl.PixelStorei(kPixelStore[i], kPixelStore[i] == GL_UNPACK_ALIGNMENT || kPixelStore[i] == GL_PACK_ALIGNMENT ? 4 : 0);
+    gl.PixelStorei(kPixelStore[i],
+                   kPixelStore[i] == GL_UNPACK_ALIGNMENT || kPixelStore[i] == GL_PACK_ALIGNMENT ? 4 : 0);
   }
   gl.GetIntegerv(GL_PIXEL_PACK_BUFFER_BINDING, &packBuffer_);
   gl.GetIntegerv(GL_PIXEL_UNPACK_BUFFER_BINDING, &unpackBuffer_);

@@ -1,13 +1,14 @@
-// GL objects with an owner: created through direct state access (nothing is bound by creating or filling them), deleted with their C++ object.
-// All are move-only; a default-constructed one is empty (id 0). A `label` names the object in captures and debug messages.
+// GL objects with an owner: created through direct state access (nothing is bound by creating or filling them), deleted
+// with their C++ object. All are move-only; a default-constructed one is empty (id 0). A `label` names the object in
+// captures and debug messages.
 #pragma once
-#include "gl/device.h"
-#include "gl/formats.h"
-
 #include <array>
 #include <cstddef>
 #include <optional>
 #include <span>
+
+#include "gl/device.h"
+#include "gl/formats.h"
 
 namespace burnish::gl {
 
@@ -39,10 +40,11 @@ struct TextureDesc {
   GLenum target = GL_TEXTURE_2D;  ///< GL_TEXTURE_2D, _CUBE_MAP, _2D_ARRAY, _CUBE_MAP_ARRAY
   GLenum format = GL_RGBA8;       ///< one of formats()
   int width = 1, height = 1;
-  int layers = 1;                 ///< array targets: layers (cube arrays: 6 a cube)
-  int levels = 1;                 ///< mip levels; 0: the full chain
+  int layers = 1;  ///< array targets: layers (cube arrays: 6 a cube)
+  int levels = 1;  ///< mip levels; 0: the full chain
 };
-/// Immutable storage. New textures: contents undefined, min/mag nearest (nearest mip when levels > 1), wrap clamp to edge.
+/// Immutable storage. New textures: contents undefined, min/mag nearest (nearest mip when levels > 1), wrap clamp to
+/// edge.
 class Texture {
  public:
   Texture() = default;
@@ -50,12 +52,14 @@ class Texture {
   static Result<Texture> create(Device& device, const TextureDesc& desc, std::string_view label);
   [[nodiscard]] GLuint id() const { return handle_.id(); }
   [[nodiscard]] explicit operator bool() const { return bool(handle_); }
-  /// Replaces a whole level (of one layer or cube face). Rows tight, in the format's own external format and type unless given.
-  /// Pixel store must be at GL's defaults (PixelStoreScope or HostStateGuard); alignment is handled here.
+  /// Replaces a whole level (of one layer or cube face). Rows tight, in the format's own external format and type
+  /// unless given. Pixel store must be at GL's defaults (PixelStoreScope or HostStateGuard); alignment is handled here.
   void upload(int level, const void* pixels, int layer = 0, GLenum external = 0, GLenum type = 0);
   /// Part of a level, the same way. Rectangle in texels of that level.
-  void uploadRect(int level, int x, int y, int w, int h, const void* pixels, int layer = 0, GLenum external = 0, GLenum type = 0);
-  /// Reads a whole level back (all layers), tight rows. Waits for the GPU. `out` must be large enough: bytes of the level in external × type.
+  void uploadRect(int level, int x, int y, int w, int h, const void* pixels, int layer = 0, GLenum external = 0,
+                  GLenum type = 0);
+  /// Reads a whole level back (all layers), tight rows. Waits for the GPU. `out` must be large enough: bytes of the
+  /// level in external × type.
   void read(int level, std::span<std::byte> out, GLenum external = 0, GLenum type = 0) const;
   void generateMips();
   /// Every level and layer to one value (floats; depth formats take x).
@@ -83,7 +87,8 @@ class Buffer {
  public:
   Buffer() = default;
   /// bytes 0 gives a buffer of 4 bytes, so that it can be bound. data may be nullptr except with Static.
-  static Result<Buffer> create(Device& device, BufferUse use, std::size_t bytes, const void* data, std::string_view label);
+  static Result<Buffer> create(Device& device, BufferUse use, std::size_t bytes, const void* data,
+                               std::string_view label);
   template <class T>
   static Result<Buffer> create(Device& device, BufferUse use, std::span<const T> data, std::string_view label) {
     return create(device, use, data.size_bytes(), data.data(), label);
@@ -109,7 +114,8 @@ class TextureBuffer {
  public:
   TextureBuffer() = default;
   /// format: GL_RGBA32F, GL_R32UI, ... Errors: more texels than the device allows, out of memory.
-  static Result<TextureBuffer> create(Device& device, GLenum format, BufferUse use, std::size_t bytes, const void* data, std::string_view label);
+  static Result<TextureBuffer> create(Device& device, GLenum format, BufferUse use, std::size_t bytes, const void* data,
+                                      std::string_view label);
   [[nodiscard]] GLuint id() const { return handle_.id(); }  ///< of the texture
   [[nodiscard]] const Buffer& buffer() const { return buffer_; }
   [[nodiscard]] explicit operator bool() const { return bool(handle_); }
@@ -119,7 +125,7 @@ class TextureBuffer {
 
  private:
   Result<void> checkSize(std::size_t bytes) const;
-  Buffer buffer_;   // destroyed after the texture that reads it
+  Buffer buffer_;  // destroyed after the texture that reads it
   Handle handle_;
   GLenum format_ = 0;
   int texelBytes_ = 0;
@@ -131,15 +137,17 @@ struct Attachment {
   GLuint texture = 0;
   GLenum format = 0;  ///< decides depth or depth-stencil
   int level = 0;
-  int layer = -1;     ///< array layer or cube face; -1: the whole texture
+  int layer = -1;  ///< array layer or cube face; -1: the whole texture
   Attachment() = default;
-  Attachment(const Texture& t, int mip = 0, int layerOrFace = -1) : texture(t.id()), format(t.format), level(mip), layer(layerOrFace) {}
+  Attachment(const Texture& t, int mip = 0, int layerOrFace = -1)
+      : texture(t.id()), format(t.format), level(mip), layer(layerOrFace) {}
 };
 class Framebuffer {
  public:
   Framebuffer() = default;
   /// Draw buffers follow the colours in order; no colours: GL_NONE. Error when incomplete, with GL's reason.
-  static Result<Framebuffer> create(Device& device, std::span<const Attachment> colors, const std::optional<Attachment>& depth, std::string_view label);
+  static Result<Framebuffer> create(Device& device, std::span<const Attachment> colors,
+                                    const std::optional<Attachment>& depth, std::string_view label);
   [[nodiscard]] GLuint id() const { return handle_.id(); }
   [[nodiscard]] explicit operator bool() const { return bool(handle_); }
   void bind(GLenum target = GL_FRAMEBUFFER) const;
@@ -167,8 +175,8 @@ class VertexArray {
  public:
   VertexArray() = default;
   /// bindings[i] is binding i. Neither list: an array for attribute-less draws. elements 0: no index buffer.
-  static VertexArray create(Device& device, std::span<const VertexAttribute> attributes, std::span<const VertexBinding> bindings, GLuint elements,
-                            std::string_view label);
+  static VertexArray create(Device& device, std::span<const VertexAttribute> attributes,
+                            std::span<const VertexBinding> bindings, GLuint elements, std::string_view label);
   [[nodiscard]] GLuint id() const { return handle_.id(); }
   [[nodiscard]] explicit operator bool() const { return bool(handle_); }
   void setBinding(GLuint index, const VertexBinding& binding);
@@ -205,15 +213,16 @@ class Query {
   static Query create(Device& device, GLenum target, std::string_view label);
   [[nodiscard]] GLuint id() const { return handle_.id(); }
   [[nodiscard]] explicit operator bool() const { return bool(handle_); }
-  void timestamp();                          ///< GL_TIMESTAMP: takes the time when everything before is done
-  [[nodiscard]] bool available() const;      ///< never waits
+  void timestamp();                            ///< GL_TIMESTAMP: takes the time when everything before is done
+  [[nodiscard]] bool available() const;        ///< never waits
   [[nodiscard]] std::uint64_t result() const;  ///< waits unless available()
 
  private:
   Handle handle_;
 };
 
-/// Pixel store and pixel buffer bindings at GL's defaults (alignment 4) for this scope, then as they were: for uploads and reads outside a HostStateGuard.
+/// Pixel store and pixel buffer bindings at GL's defaults (alignment 4) for this scope, then as they were: for uploads
+/// and reads outside a HostStateGuard.
 class PixelStoreScope {
  public:
   explicit PixelStoreScope(const Device& device);

@@ -66,12 +66,21 @@ std::string programLog(const GladGLContext& gl, GLuint program) {
   return log;
 }
 
+std::vector<std::pair<GLenum, std::string>> stagesOf(const ProgramSource& s) {
+  std::vector<std::pair<GLenum, std::string>> stages = {
+      {GL_VERTEX_SHADER, s.vertex}, {GL_FRAGMENT_SHADER, s.fragment}, {GL_COMPUTE_SHADER, s.compute}};
+  std::erase_if(stages, [](const auto& stage) { return stage.second.empty(); });
+  return stages;
+}
+
 std::string place(const ProgramSource& s) { return fmt::format("program \"{}\"", s.name); }
 
 }  // namespace
 
 ProgramCache::ProgramCache(Device& device, ShaderLibrary library, std::filesystem::path binaryFolder)
-    : device_(device), library_(std::move(library)), folder_(device.caps.programBinary ? std::move(binaryFolder) : std::filesystem::path()) {}
+    : device_(device),
+      library_(std::move(library)),
+      folder_(device.caps.programBinary ? std::move(binaryFolder) : std::filesystem::path()) {}
 ProgramCache::~ProgramCache() = default;
 
 Result<std::unique_ptr<ProgramCache::Job>> ProgramCache::begin(const ProgramSource& source) {
@@ -80,10 +89,10 @@ Result<std::unique_ptr<ProgramCache::Job>> ProgramCache::begin(const ProgramSour
   job->source = source;
   std::sort(job->source.defines.begin(), job->source.defines.end());
   if (source.compute.empty() == source.vertex.empty())
-    return fail(place(source), "neither a vertex nor a compute shader alone is given", "name a vertex shader (and a fragment shader), or one compute shader");
+    return fail(place(source), "neither a vertex nor a compute shader alone is given",
+                "name a vertex shader (and a fragment shader), or one compute shader");
   BinaryKeyBuilder key(device_.caps);
-  for (const auto& [type, file] : {std::pair{GLenum(GL_VERTEX_SHADER), source.vertex}, {GLenum(GL_FRAGMENT_SHADER), source.fragment}, {GLenum(GL_COMPUTE_SHADER), source.compute}}) {
-    if (file.empty()) continue;
+  for (const auto& [type, file] : stagesOf(source)) {
     auto text = library_.resolve(file, job->source.defines);
     if (!text) return fail(Error{place(source) + ": " + text.error().place, text.error().what, text.error().remedy});
     key.add(type, text->text);
@@ -120,12 +129,16 @@ Result<Handle> ProgramCache::finish(Job& job) {
       GLint ok = 0;
       gl.GetShaderiv(stage.shader, GL_COMPILE_STATUS, &ok);
       if (!ok)
-        return fail(place(job.source), fmt::format("{} does not compile:\n{}", stage.file, nameFiles(shaderLog(gl, stage.shader), stage.text.files)),
+        return fail(place(job.source),
+                    fmt::format("{} does not compile:\n{}", stage.file,
+                                nameFiles(shaderLog(gl, stage.shader), stage.text.files)),
                     "correct the shader");
     }
     GLint linked = 0;
     gl.GetProgramiv(program, GL_LINK_STATUS, &linked);
-    if (!linked) return fail(place(job.source), fmt::format("does not link:\n{}", programLog(gl, program)), "correct the interface between its shaders");
+    if (!linked)
+      return fail(place(job.source), fmt::format("does not link:\n{}", programLog(gl, program)),
+                  "correct the interface between its shaders");
     for (const Job::Stage& stage : job.stages) gl.DetachShader(program, stage.shader);
     ++built_;
     saveBinary(job, program);
@@ -173,7 +186,8 @@ Result<const Program*> ProgramCache::get(const ProgramSource& source) {
   if (!job) return fail(job.error());
   auto handle = finish(**job);
   if (!handle) return fail(handle.error());
-  auto entry = std::make_unique<Entry>(Entry{source, (*job)->key, std::make_unique<Program>(std::move(*handle), source.name)});
+  auto entry =
+      std::make_unique<Entry>(Entry{source, (*job)->key, std::make_unique<Program>(std::move(*handle), source.name)});
   return programs_.emplace(key, std::move(entry)).first->second->program.get();
 }
 
@@ -189,7 +203,9 @@ Result<int> ProgramCache::warmUp(std::span<const ProgramSource> sources) {
   for (auto& [key, job] : jobs) {
     auto handle = finish(*job);
     if (!handle) return fail(handle.error());
-    programs_.emplace(key, std::make_unique<Entry>(Entry{job->source, job->key, std::make_unique<Program>(std::move(*handle), job->source.name)}));
+    programs_.emplace(
+        key, std::make_unique<Entry>(
+                 Entry{job->source, job->key, std::make_unique<Program>(std::move(*handle), job->source.name)}));
   }
   return int(jobs.size());
 }
@@ -200,8 +216,7 @@ Result<int> ProgramCache::reload() {
     BinaryKeyBuilder now(device_.caps);
     std::vector<std::string> defines = entry->source.defines;
     std::sort(defines.begin(), defines.end());
-    for (const auto& [type, file] : {std::pair{GLenum(GL_VERTEX_SHADER), entry->source.vertex}, {GLenum(GL_FRAGMENT_SHADER), entry->source.fragment}, {GLenum(GL_COMPUTE_SHADER), entry->source.compute}}) {
-      if (file.empty()) continue;
+    for (const auto& [type, file] : stagesOf(entry->source)) {
       auto text = library_.resolve(file, defines);
       if (!text) return fail(text.error());
       now.add(type, text->text);

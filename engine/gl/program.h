@@ -1,10 +1,10 @@
 // Programs: compiled once for each set of files and definitions, kept as binaries between runs where the driver can.
 #pragma once
-#include "gl/objects.h"
-#include "gl/shader_source.h"
-
 #include <map>
 #include <memory>
+
+#include "gl/objects.h"
+#include "gl/shader_source.h"
 
 namespace burnish::gl {
 
@@ -28,17 +28,20 @@ class Program {
   Handle handle_;
 };
 
-/// The programs of one device. Pointers that get() returns stay valid until the cache is destroyed (reload() swaps what they point to).
+/// The programs of one device. Pointers that get() returns stay valid until the cache is destroyed (reload() swaps what
+/// they point to).
 class ProgramCache {
  public:
-  /// binaryFolder: where binaries are kept; made when missing; empty: none. A folder that cannot be written or a damaged file costs a compilation, never an error.
+  /// binaryFolder: where binaries are kept; made when missing; empty: none. A folder that cannot be written or a
+  /// damaged file costs a compilation, never an error.
   ProgramCache(Device& device, ShaderLibrary library, std::filesystem::path binaryFolder = {});
   ~ProgramCache();
   /// From memory, else from the binary folder, else compiled. Errors name program, file and line.
   Result<const Program*> get(const ProgramSource& source);
   /// Makes all ready; all compilations are begun before the first is waited for. Returns how many were not in memory.
   Result<int> warmUp(std::span<const ProgramSource> sources);
-  /// Builds anew every program whose text has changed since (override folder). On an error the old program stays. Returns how many changed.
+  /// Builds anew every program whose text has changed since (override folder). On an error the old program stays.
+  /// Returns how many changed.
   Result<int> reload();
   [[nodiscard]] int built() const { return built_; }    ///< compiled from text so far
   [[nodiscard]] int loaded() const { return loaded_; }  ///< taken from binaries so far

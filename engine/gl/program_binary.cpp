@@ -14,7 +14,8 @@ namespace {
 
 constexpr std::uint64_t kMaxFileBytes = 64ull << 20;
 
-/// Head of a file, then the driver's bytes. Native byte order: the key binds a file to one driver, so it never travels between machines.
+/// Head of a file, then the driver's bytes. Native byte order: the key binds a file to one driver, so it never travels
+/// between machines.
 struct Header {
   char magic[8] = {'B', 'R', 'N', 'P', 'R', 'O', 'G', '1'};
   BinaryKey key{};
@@ -24,7 +25,9 @@ struct Header {
 };
 static_assert(sizeof(Header) == 48);
 
-std::uint64_t contentHash(std::uint32_t format, std::span<const std::byte> bytes) { return XXH3_64bits_withSeed(bytes.data(), bytes.size(), format); }
+std::uint64_t contentHash(std::uint32_t format, std::span<const std::byte> bytes) {
+  return XXH3_64bits_withSeed(bytes.data(), bytes.size(), format);
+}
 
 std::filesystem::path fileOf(const std::filesystem::path& folder, const BinaryKey& key) {
   return folder / fmt::format("{:016x}{:016x}.bin", key[0], key[1]);
@@ -67,8 +70,8 @@ std::optional<ProgramBinary> readBinary(const std::filesystem::path& folder, con
   Header header;
   std::memcpy(&header, file->data(), sizeof header);
   const std::span<const std::byte> bytes = std::span(*file).subspan(sizeof header);
-  const bool whole = std::memcmp(header.magic, expected.magic, sizeof header.magic) == 0 && header.key == key && header.size == bytes.size() &&
-                     header.hash == contentHash(header.format, bytes);
+  const bool whole = std::memcmp(header.magic, expected.magic, sizeof header.magic) == 0 && header.key == key &&
+                     header.size == bytes.size() && header.hash == contentHash(header.format, bytes);
   if (!whole) return {};
   return ProgramBinary{header.format, {bytes.begin(), bytes.end()}};
 }

@@ -35,7 +35,8 @@ struct ProgramBinary {
 };
 /// Nothing where the file is missing, was written for another key, or is damaged in any way (its own hash decides).
 std::optional<ProgramBinary> readBinary(const std::filesystem::path& folder, const BinaryKey& key);
-/// Makes the folder when it is missing; complete or not at all. A failure costs the next start a compilation and is not reported.
+/// Makes the folder when it is missing; complete or not at all. A failure costs the next start a compilation and is not
+/// reported.
 void writeBinary(const std::filesystem::path& folder, const BinaryKey& key, const ProgramBinary& binary);
 
 }  // namespace burnish::gl

@@ -31,17 +31,25 @@ Directive directive(std::string_view line) {
   return {line.substr(0, end), trim(line.substr(end))};
 }
 
-/// Follows conditionals as far as __cplusplus decides them: shaders and C++ share files, and what only C++ includes is no concern here.
+/// Follows conditionals as far as __cplusplus decides them: shaders and C++ share files, and what only C++ includes is
+/// no concern here.
 class Conditionals {
  public:
   void see(const Directive& d) {
-    if (d.name == "ifdef") stack_.push_back(d.rest == "__cplusplus" ? Cpp : Unknown);
-    else if (d.name == "ifndef") stack_.push_back(d.rest == "__cplusplus" ? NotCpp : Unknown);
-    else if (d.name == "if") stack_.push_back(isCpp(d.rest) ? Cpp : isNotCpp(d.rest) ? NotCpp : Unknown);
-    else if (stack_.empty()) return;
-    else if (d.name == "else") stack_.back() = stack_.back() == Cpp ? NotCpp : stack_.back() == NotCpp ? Cpp : Unknown;
-    else if (d.name == "elif") stack_.back() = Unknown;
-    else if (d.name == "endif") stack_.pop_back();
+    if (d.name == "ifdef")
+      stack_.push_back(d.rest == "__cplusplus" ? Cpp : Unknown);
+    else if (d.name == "ifndef")
+      stack_.push_back(d.rest == "__cplusplus" ? NotCpp : Unknown);
+    else if (d.name == "if")
+      stack_.push_back(isCpp(d.rest) ? Cpp : isNotCpp(d.rest) ? NotCpp : Unknown);
+    else if (stack_.empty())
+      return;
+    else if (d.name == "else")
+      stack_.back() = stack_.back() == Cpp ? NotCpp : stack_.back() == NotCpp ? Cpp : Unknown;
+    else if (d.name == "elif")
+      stack_.back() = Unknown;
+    else if (d.name == "endif")
+      stack_.pop_back();
   }
   [[nodiscard]] bool cppOnly() const { return std::find(stack_.begin(), stack_.end(), Cpp) != stack_.end(); }
 
@@ -72,7 +80,8 @@ bool blockCommentAfter(std::string_view line, bool open) {
 /// Path below the root with "." and ".." resolved; empty when it would leave the root.
 std::string normalized(const std::filesystem::path& path) {
   const std::string name = path.lexically_normal().generic_string();
-  const bool outside = name.empty() || name.front() == '/' || name == ".." || name.rfind("../", 0) == 0 || name.find('\0') != std::string::npos;
+  const bool outside = name.empty() || name.front() == '/' || name == ".." || name.rfind("../", 0) == 0 ||
+                       name.find('\0') != std::string::npos;
   return outside ? std::string() : name;
 }
 
@@ -87,9 +96,13 @@ class Resolver {
       return fail(askedBy, "include cycle: " + chain + name, "move what both need into a third file");
     }
     if (std::find(out.files.begin(), out.files.end(), name) != out.files.end()) return {};
-    if (stack_.size() >= kMaxDepth) return fail(askedBy, fmt::format("includes nest deeper than {}", kMaxDepth), "include less deeply");
+    if (stack_.size() >= kMaxDepth)
+      return fail(askedBy, fmt::format("includes nest deeper than {}", kMaxDepth), "include less deeply");
     auto text = library_.file(name);
-    if (!text) return fail(askedBy.empty() ? text.error() : Error{askedBy, text.error().what + " (" + text.error().place + ")", text.error().remedy});
+    if (!text)
+      return fail(askedBy.empty()
+                      ? text.error()
+                      : Error{askedBy, text.error().what + " (" + text.error().place + ")", text.error().remedy});
     const std::size_t index = out.files.size();
     out.files.push_back(name);
     stack_.push_back(name);
@@ -118,7 +131,8 @@ class Resolver {
         if (auto done = include(name, place, d.rest); !done) return done;
         out.text += out.text.size() == before ? "\n" : fmt::format("#line {} {}\n", number + 1, index);
       } else if (d.name == "version" || d.name == "include" || (d.name == "pragma" && d.rest.rfind("once", 0) == 0)) {
-        if (d.name == "version" && d.rest.rfind("450", 0) != 0) return fail(place, fmt::format("#version {}", d.rest), "leave it out: 450 core is put in front");
+        if (d.name == "version" && d.rest.rfind("450", 0) != 0)
+          return fail(place, fmt::format("#version {}", d.rest), "leave it out: 450 core is put in front");
         out.text += '\n';  // keeps the count of lines
       } else {
         out.text += line;
@@ -135,7 +149,8 @@ class Resolver {
       return fail(place, fmt::format("malformed include: {}", what), "write #include \"path/below/shaders\"");
     const std::string_view path = what.substr(1, close - 1);
     const std::string beside = normalized(std::filesystem::path(from).parent_path() / path), root = normalized(path);
-    if (beside.empty() && root.empty()) return fail(place, fmt::format("include \"{}\" leaves the shader folder", path), "include only files below it");
+    if (beside.empty() && root.empty())
+      return fail(place, fmt::format("include \"{}\" leaves the shader folder", path), "include only files below it");
     return add(!beside.empty() && library_.file(beside) ? beside : root.empty() ? beside : root, place);
   }
 
@@ -149,17 +164,20 @@ ShaderLibrary::ShaderLibrary(std::filesystem::path overrideFolder, std::span<con
     : override_(std::move(overrideFolder)), embedded_(embedded) {}
 
 Result<std::string> ShaderLibrary::file(std::string_view name) const {
-  if (normalized(name) != name || name.empty()) return fail(std::string(name), "not a path below the shader folder", "use a relative path without ..");
+  if (normalized(name) != name || name.empty())
+    return fail(std::string(name), "not a path below the shader folder", "use a relative path without ..");
   std::error_code ignored;
   if (!override_.empty() && std::filesystem::is_regular_file(override_ / name, ignored)) {
     std::ifstream in(override_ / name, std::ios::binary);
     std::string text{std::istreambuf_iterator<char>(in), {}};
-    if (in.bad() || !in.is_open()) return fail((override_ / name).string(), "the file cannot be read", "check its permissions");
+    if (in.bad() || !in.is_open())
+      return fail((override_ / name).string(), "the file cannot be read", "check its permissions");
     return text;
   }
   for (const EmbeddedShader& s : embedded_)
     if (s.name == name) return std::string(s.text);
-  const std::string where = override_.empty() ? "among the embedded ones" : "in " + override_.string() + " or among the embedded ones";
+  const std::string where =
+      override_.empty() ? "among the embedded ones" : "in " + override_.string() + " or among the embedded ones";
   return fail(std::string(name), "no such shader file " + where, "check the name, or add the file below shaders/");
 }
 
@@ -167,7 +185,8 @@ Result<ShaderText> ShaderLibrary::resolve(std::string_view name, std::span<const
   Resolver resolver(*this);
   resolver.out.text = "#version 450 core\n";
   for (const std::string& d : defines) {
-    if (d.empty() || d.find_first_of("\n\r\\") != std::string::npos) return fail(std::string(name), fmt::format("malformed definition \"{}\"", d), "write NAME value on one line");
+    if (d.empty() || d.find_first_of("\n\r\\") != std::string::npos)
+      return fail(std::string(name), fmt::format("malformed definition \"{}\"", d), "write NAME value on one line");
     resolver.out.text += "#define " + d + '\n';
   }
   if (auto done = resolver.add(std::string(name), ""); !done) return fail(done.error());
@@ -177,8 +196,11 @@ Result<ShaderText> ShaderLibrary::resolve(std::string_view name, std::span<const
 std::string nameFiles(std::string_view log, std::span<const std::string> files) {
   std::string out;
   for (std::size_t i = 0; i < log.size();) {
-    const auto digit = [&](std::size_t at) { return at < log.size() && std::isdigit(static_cast<unsigned char>(log[at])); };
-    // A file index stands at the start of a line, or after "ERROR: " or the like, and is followed by ":line" (Mesa, Intel, AMD) or "(line)" (NVIDIA).
+    const auto digit = [&](std::size_t at) {
+      return at < log.size() && std::isdigit(static_cast<unsigned char>(log[at]));
+    };
+    // A file index stands at the start of a line, or after "ERROR: " or the like, and is followed by ":line" (Mesa,
+    // Intel, AMD) or "(line)" (NVIDIA).
     const bool start = i == 0 || log[i - 1] == '\n' || log[i - 1] == ' ' || log[i - 1] == '\t';
     std::size_t end = i, file = 0;
     while (digit(end) && end - i < 6) file = file * 10 + std::size_t(log[end++] - '0');

@@ -1,10 +1,11 @@
-// Shader text: found in an override folder or embedded in the library, includes resolved, definitions put in front, errors traced back to files.
+// Shader text: found in an override folder or embedded in the library, includes resolved, definitions put in front,
+// errors traced back to files.
 #pragma once
-#include "gl/embedded_shaders.h"
-
 #include <burnish/result.h>
 
 #include <filesystem>
+
+#include "gl/embedded_shaders.h"
 
 namespace burnish::gl {
 
@@ -18,12 +19,14 @@ struct ShaderText {
 class ShaderLibrary {
  public:
   /// overrideFolder is looked into first, anew on every call (live editing); empty: none.
-  explicit ShaderLibrary(std::filesystem::path overrideFolder = {}, std::span<const EmbeddedShader> embedded = embeddedShaders());
+  explicit ShaderLibrary(std::filesystem::path overrideFolder = {},
+                         std::span<const EmbeddedShader> embedded = embeddedShaders());
   /// The text of one file. Error when neither place has it.
   [[nodiscard]] Result<std::string> file(std::string_view name) const;
-  /// `#version 450 core`, the definitions ("NAME value" or "NAME"), then the file with every `#include "path"` put in, each file once.
-  /// A path is tried beside the including file, then from the root. `#include <...>` and whatever stands under `#ifdef __cplusplus` are C++'s and left out.
-  /// Errors: a missing file (with the line that asks for it), a cycle (with its chain), a path that leaves the root, a malformed directive.
+  /// `#version 450 core`, the definitions ("NAME value" or "NAME"), then the file with every `#include "path"` put in,
+  /// each file once. A path is tried beside the including file, then from the root. `#include <...>` and whatever
+  /// stands under `#ifdef __cplusplus` are C++'s and left out. Errors: a missing file (with the line that asks for it),
+  /// a cycle (with its chain), a path that leaves the root, a malformed directive.
   [[nodiscard]] Result<ShaderText> resolve(std::string_view name, std::span<const std::string> defines = {}) const;
 
  private:

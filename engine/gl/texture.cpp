@@ -15,11 +15,15 @@ bool isArray(GLenum target) { return target == GL_TEXTURE_2D_ARRAY || target == 
 Result<Texture> Texture::create(Device& device, const TextureDesc& desc, std::string_view label) {
   const std::string place = fmt::format("texture \"{}\"", label);
   const FormatInfo* info = formatInfo(desc.format);
-  if (!info) return fail(place, fmt::format("format {:#x} is not in the engine's list", desc.format), "add it to engine/gl/formats.cpp");
+  if (!info)
+    return fail(place, fmt::format("format {:#x} is not in the engine's list", desc.format),
+                "add it to engine/gl/formats.cpp");
   const int most = device.caps.maxTextureSize;
   if (desc.width < 1 || desc.height < 1 || desc.width > most || desc.height > most)
-    return fail(place, fmt::format("{}x{} texels; this device has 1 to {} a side", desc.width, desc.height, most), "make the picture or window smaller");
-  if (isCube(desc.target) && desc.width != desc.height) return fail(place, fmt::format("a cube of {}x{} texels", desc.width, desc.height), "make it square");
+    return fail(place, fmt::format("{}x{} texels; this device has 1 to {} a side", desc.width, desc.height, most),
+                "make the picture or window smaller");
+  if (isCube(desc.target) && desc.width != desc.height)
+    return fail(place, fmt::format("a cube of {}x{} texels", desc.width, desc.height), "make it square");
   const GladGLContext& gl = device.gl;
   Texture made;
   made.target = desc.target;
@@ -27,7 +31,8 @@ Result<Texture> Texture::create(Device& device, const TextureDesc& desc, std::st
   made.width = desc.width;
   made.height = desc.height;
   made.layers = isArray(desc.target) ? desc.layers : 1;
-  made.levels = desc.levels > 0 ? std::min(desc.levels, fullMipLevels(desc.width, desc.height)) : fullMipLevels(desc.width, desc.height);
+  made.levels = desc.levels > 0 ? std::min(desc.levels, fullMipLevels(desc.width, desc.height))
+                                : fullMipLevels(desc.width, desc.height);
   made.bytes = textureBytes(*info, made.width, made.height, isCube(desc.target) ? 6 : made.layers, made.levels);
   GLuint id = 0;
   gl.CreateTextures(desc.target, 1, &id);
@@ -37,7 +42,9 @@ Result<Texture> Texture::create(Device& device, const TextureDesc& desc, std::st
   else
     gl.TextureStorage2D(id, made.levels, desc.format, made.width, made.height);
   if (device.ranOutOfMemory())
-    return fail(place, fmt::format("no memory for {} MiB ({}x{} {})", made.bytes >> 20, made.width, made.height, info->name), "use fewer or smaller textures, or a smaller picture");
+    return fail(place,
+                fmt::format("no memory for {} MiB ({}x{} {})", made.bytes >> 20, made.width, made.height, info->name),
+                "use fewer or smaller textures, or a smaller picture");
   made.handle_.setBytes(made.bytes);
   made.setFilter(made.levels > 1 ? GL_NEAREST_MIPMAP_NEAREST : GL_NEAREST, GL_NEAREST);
   made.setWrap(GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
@@ -49,7 +56,8 @@ void Texture::upload(int level, const void* pixels, int layer, GLenum external, 
   uploadRect(level, 0, 0, std::max(1, width >> level), std::max(1, height >> level), pixels, layer, external, type);
 }
 
-void Texture::uploadRect(int level, int x, int y, int w, int h, const void* pixels, int layer, GLenum external, GLenum type) {
+void Texture::uploadRect(int level, int x, int y, int w, int h, const void* pixels, int layer, GLenum external,
+                         GLenum type) {
   const FormatInfo& info = *formatInfo(format);
   if (!external) {
     external = info.external;
@@ -68,7 +76,8 @@ void Texture::read(int level, std::span<std::byte> out, GLenum external, GLenum 
   const FormatInfo& info = *formatInfo(format);
   const GladGLContext& gl = handle_.device().gl;
   gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
-  gl.GetTextureImage(id(), level, external ? external : info.external, external ? type : info.type, GLsizei(out.size()), out.data());
+  gl.GetTextureImage(id(), level, external ? external : info.external, external ? type : info.type, GLsizei(out.size()),
+                     out.data());
   gl.PixelStorei(GL_PACK_ALIGNMENT, 4);
 }
 
@@ -81,11 +90,16 @@ void Texture::clear(const std::array<float, 4>& value) {
     switch (info.external) {
       case GL_DEPTH_STENCIL: {
         // No clear takes depth as float and stencil for both depth-stencil formats; the packed pair does.
-        const struct { float depth; std::uint32_t stencil; } pair{value[0], std::uint32_t(value[1])};
+        const struct {
+          float depth;
+          std::uint32_t stencil;
+        } pair{value[0], std::uint32_t(value[1])};
         gl.ClearTexImage(id(), level, GL_DEPTH_STENCIL, GL_FLOAT_32_UNSIGNED_INT_24_8_REV, &pair);
         break;
       }
-      case GL_DEPTH_COMPONENT: gl.ClearTexImage(id(), level, GL_DEPTH_COMPONENT, GL_FLOAT, value.data()); break;
+      case GL_DEPTH_COMPONENT:
+        gl.ClearTexImage(id(), level, GL_DEPTH_COMPONENT, GL_FLOAT, value.data());
+        break;
       case GL_RED_INTEGER:
       case GL_RG_INTEGER:
       case GL_RGBA_INTEGER: {
@@ -93,7 +107,8 @@ void Texture::clear(const std::array<float, 4>& value) {
         gl.ClearTexImage(id(), level, GL_RGBA_INTEGER, GL_INT, integers.data());
         break;
       }
-      default: gl.ClearTexImage(id(), level, GL_RGBA, GL_FLOAT, value.data());
+      default:
+        gl.ClearTexImage(id(), level, GL_RGBA, GL_FLOAT, value.data());
     }
   }
 }

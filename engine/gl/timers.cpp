@@ -43,7 +43,8 @@ void FrameTimers::begin(std::string_view pass) {
     wallStart_ = wallMs();
   } else if (current_) {
     if (current_->used == current_->passes.size())
-      current_->passes.push_back({{}, Query::create(device_, GL_TIMESTAMP, "pass begins"), Query::create(device_, GL_TIMESTAMP, "pass ends")});
+      current_->passes.push_back(
+          {{}, Query::create(device_, GL_TIMESTAMP, "pass begins"), Query::create(device_, GL_TIMESTAMP, "pass ends")});
     Pass& p = current_->passes[current_->used];
     p.name = pass;
     p.start.timestamp();

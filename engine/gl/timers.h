@@ -6,7 +6,8 @@ namespace burnish::gl {
 
 enum class Timing : std::uint8_t {
   Off,
-  Async,    ///< GPU timestamps, collected some frames later without waiting. On llvmpipe right only where the next pass binds another framebuffer.
+  Async,    ///< GPU timestamps, collected some frames later without waiting. On llvmpipe right only where the next pass
+            ///< binds another framebuffer.
   Profile,  ///< glFinish around every pass; gpuMs is wall time, cpuMs the process's user + system time
 };
 struct PassSample {
@@ -19,7 +20,8 @@ class FrameTimers {
  public:
   static constexpr int kFramesInFlight = 6;
   explicit FrameTimers(Device& device) : device_(device) {}
-  /// Also collects what has arrived. A frame for which no slot is free (the GPU is kFramesInFlight behind) goes unmeasured.
+  /// Also collects what has arrived. A frame for which no slot is free (the GPU is kFramesInFlight behind) goes
+  /// unmeasured.
   void beginFrame(Timing timing);
   void begin(std::string_view pass);
   void end();
@@ -42,7 +44,7 @@ class FrameTimers {
   Device& device_;
   Timing timing_ = Timing::Off;
   std::array<Frame, kFramesInFlight> frames_;
-  int next_ = 0;             // slot of the next frame
+  int next_ = 0;              // slot of the next frame
   Frame* current_ = nullptr;  // Async, measured frame
   bool open_ = false;         // between begin and end
   std::vector<PassSample> profile_, latest_;

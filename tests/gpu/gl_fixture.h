@@ -1,4 +1,5 @@
-// A context of the backend under test (BURNISH_TEST_BACKEND = egl or osmesa; egl when unset). Tests fail, never skip, where it cannot be opened.
+// A context of the backend under test (BURNISH_TEST_BACKEND = egl or osmesa; egl when unset). Tests fail, never skip,
+// where it cannot be opened.
 #pragma once
 #include <burnish/context.h>
 

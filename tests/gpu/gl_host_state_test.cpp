@@ -11,7 +11,8 @@ using burnish::test::GlFixture;
 
 namespace {
 
-constexpr EmbeddedShader kFiles[] = {{"v.vert", "out gl_PerVertex { vec4 gl_Position; };\nvoid main() { gl_Position = vec4(0); }\n"}};
+constexpr EmbeddedShader kFiles[] = {
+    {"v.vert", "out gl_PerVertex { vec4 gl_Position; };\nvoid main() { gl_Position = vec4(0); }\n"}};
 
 /// Two real objects of every kind, so that bindings can be changed twice.
 class Objects {
@@ -115,7 +116,9 @@ TEST_CASE("the table: names are unique, and a fresh context is at the defaults t
 TEST_CASE("every row can be changed and read back alone") {
   GlFixture f;
   Objects objects(*f.device);
-  f.gl.BindFramebuffer(GL_FRAMEBUFFER, objects.id(StateObject::Framebuffer, 1));  // one with a stencil: its bits limit what the reference reads as
+  f.gl.BindFramebuffer(
+      GL_FRAMEBUFFER,
+      objects.id(StateObject::Framebuffer, 1));  // one with a stencil: its bits limit what the reference reads as
   for (const StateEntry& e : stateTable()) {
     INFO(e.name);
     const StateValue before = e.get(f.gl), wanted = changed(e, objects, 0);

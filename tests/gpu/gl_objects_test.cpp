@@ -28,7 +28,8 @@ TEST_CASE("formats: sizes agree with what the driver stores") {
     auto made = Texture::create(*f.device, {GL_TEXTURE_2D, info.format, 4, 4}, info.name);
     REQUIRE(made);
     int bits = 0;
-    for (const GLenum part : {GL_TEXTURE_RED_SIZE, GL_TEXTURE_GREEN_SIZE, GL_TEXTURE_BLUE_SIZE, GL_TEXTURE_ALPHA_SIZE, GL_TEXTURE_DEPTH_SIZE, GL_TEXTURE_STENCIL_SIZE, GL_TEXTURE_SHARED_SIZE}) {
+    for (const GLenum part : {GL_TEXTURE_RED_SIZE, GL_TEXTURE_GREEN_SIZE, GL_TEXTURE_BLUE_SIZE, GL_TEXTURE_ALPHA_SIZE,
+                              GL_TEXTURE_DEPTH_SIZE, GL_TEXTURE_STENCIL_SIZE, GL_TEXTURE_SHARED_SIZE}) {
       GLint size = 0;
       f.gl.GetTextureLevelParameteriv(made->id(), 0, part, &size);
       bits += size;
@@ -100,7 +101,8 @@ TEST_CASE("textures: odd widths, rectangles, levels, mips, layers, faces") {
 TEST_CASE("textures that cannot be are errors") {
   GlFixture f;
   const int most = f.device->caps.maxTextureSize;
-  CHECK_THAT(Texture::create(*f.device, {GL_TEXTURE_2D, GL_RGBA8, most + 1, 1}, "wide").error().message(), Contains("wide") && Contains(std::to_string(most)));
+  CHECK_THAT(Texture::create(*f.device, {GL_TEXTURE_2D, GL_RGBA8, most + 1, 1}, "wide").error().message(),
+             Contains("wide") && Contains(std::to_string(most)));
   CHECK_FALSE(Texture::create(*f.device, {GL_TEXTURE_2D, GL_RGBA8, 0, 1}, "none"));
   CHECK_FALSE(Texture::create(*f.device, {GL_TEXTURE_2D, GL_RGBA4, 1, 1}, "format"));
   CHECK_FALSE(Texture::create(*f.device, {GL_TEXTURE_CUBE_MAP, GL_RGBA8, 2, 1}, "oblong"));
@@ -150,7 +152,8 @@ TEST_CASE("buffers: static, dynamic, stream, texture buffer") {
 
 TEST_CASE("framebuffers say why they are incomplete") {
   GlFixture f;
-  CHECK_THAT(Framebuffer::create(*f.device, {}, {}, "nothing").error().message(), Contains("nothing") && Contains("no attachment"));
+  CHECK_THAT(Framebuffer::create(*f.device, {}, {}, "nothing").error().message(),
+             Contains("nothing") && Contains("no attachment"));
   auto color = Texture::create(*f.device, {GL_TEXTURE_2D, GL_RGBA8, 4, 4}, "c");
   auto depth = Texture::create(*f.device, {GL_TEXTURE_2D, GL_DEPTH32F_STENCIL8, 4, 4}, "d");
   const Attachment colors[] = {*color, *color};
@@ -164,7 +167,8 @@ TEST_CASE("nothing is left when the objects are gone") {
   GlFixture f;
   std::array<GLuint, 7> ids{};
   const auto alive = [&] {
-    return f.gl.IsTexture(ids[0]) + f.gl.IsBuffer(ids[1]) + f.gl.IsTexture(ids[2]) + f.gl.IsFramebuffer(ids[3]) + f.gl.IsVertexArray(ids[4]) + f.gl.IsSampler(ids[5]) + f.gl.IsQuery(ids[6]);
+    return f.gl.IsTexture(ids[0]) + f.gl.IsBuffer(ids[1]) + f.gl.IsTexture(ids[2]) + f.gl.IsFramebuffer(ids[3]) +
+           f.gl.IsVertexArray(ids[4]) + f.gl.IsSampler(ids[5]) + f.gl.IsQuery(ids[6]);
   };
   {
     auto texture = Texture::create(*f.device, {GL_TEXTURE_2D, GL_RGBA8, 4, 4}, "t");
@@ -172,10 +176,13 @@ TEST_CASE("nothing is left when the objects are gone") {
     auto texels = TextureBuffer::create(*f.device, GL_RGBA32F, BufferUse::Dynamic, 64, nullptr, "tb");
     const Attachment color(*texture);
     auto framebuffer = Framebuffer::create(*f.device, {&color, 1}, {}, "f");
-    const VertexAttribute attributes[] = {{0, 3, GL_FLOAT, false, false, 0, 0}, {1, 2, GL_UNSIGNED_SHORT, true, false, 12, 0}, {2, 1, GL_UNSIGNED_INT, false, true, 0, 1}};
+    const VertexAttribute attributes[] = {{0, 3, GL_FLOAT, false, false, 0, 0},
+                                          {1, 2, GL_UNSIGNED_SHORT, true, false, 12, 0},
+                                          {2, 1, GL_UNSIGNED_INT, false, true, 0, 1}};
     const VertexBinding vertexBindings[] = {{buffer->id(), 0, 16, 0}, {buffer->id(), 0, 4, 1}};
     VertexArray array = VertexArray::create(*f.device, attributes, vertexBindings, buffer->id(), "v");
-    Sampler sampler = Sampler::create(*f.device, {GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR, GL_REPEAT, GL_REPEAT, GL_REPEAT, 8}, "s");
+    Sampler sampler =
+        Sampler::create(*f.device, {GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR, GL_REPEAT, GL_REPEAT, GL_REPEAT, 8}, "s");
     Query query = Query::create(*f.device, GL_TIMESTAMP, "q");
     ids = {texture->id(), buffer->id(), texels->id(), framebuffer->id(), array.id(), sampler.id(), query.id()};
     CHECK(alive() == 7);
@@ -210,7 +217,9 @@ TEST_CASE("a host's debug callback goes on hearing, and comes back") {
   auto context = burnish::test::openContext();
   auto host = Device::create(context->procAddress(), false);
   int heard = 0;
-  const auto listen = [](GLenum, GLenum, GLuint, GLenum, GLsizei, const GLchar*, const void* user) { ++*static_cast<int*>(const_cast<void*>(user)); };
+  const auto listen = [](GLenum, GLenum, GLuint, GLenum, GLsizei, const GLchar*, const void* user) {
+    ++*static_cast<int*>(const_cast<void*>(user));
+  };
   const GladGLContext& gl = (*host)->gl;
   gl.Enable(GL_DEBUG_OUTPUT);
   gl.Enable(GL_DEBUG_OUTPUT_SYNCHRONOUS);

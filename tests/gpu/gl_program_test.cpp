@@ -15,17 +15,26 @@ using Catch::Matchers::Contains;
 namespace {
 
 constexpr EmbeddedShader kFiles[] = {
-    {"full.vert", "void main() {\n  vec2 p = vec2(gl_VertexID == 1 ? 3 : -1, gl_VertexID == 2 ? 3 : -1);\n  gl_Position = vec4(p, 0, 1);\n}\n"},
+    {"full.vert",
+     "void main() {\n  vec2 p = vec2(gl_VertexID == 1 ? 3 : -1, gl_VertexID == 2 ? 3 : -1);\n  gl_Position = vec4(p, "
+     "0, 1);\n}\n"},
     {"value.glsl", "float value() { return VALUE; }\n"},
-    {"grey.frag", "#include \"value.glsl\"\nlayout(location = 0) out vec4 color;\nvoid main() { color = vec4(value()); }\n"},
+    {"grey.frag",
+     "#include \"value.glsl\"\nlayout(location = 0) out vec4 color;\nvoid main() { color = vec4(value()); }\n"},
     {"broken.glsl", "\n\nfloat wrong() { return undeclared; }\n"},
     {"broken.frag", "#include \"broken.glsl\"\nvoid main() {}\n"},
-    {"late.frag", "#include \"value.glsl\"\n\nlayout(location = 0) out vec4 color;\nvoid main() { color = nothing; }\n"},
-    {"wants.frag", "layout(location = 3) in vec4 missing;\nlayout(location = 0) out vec4 color;\nvoid main() { color = missing; }\n"},
-    {"fill.comp", "layout(local_size_x = 4) in;\nlayout(std430, binding = 0) buffer Out { uint values[]; };\nvoid main() { values[gl_GlobalInvocationID.x] = gl_GlobalInvocationID.x * 3u; }\n"},
+    {"late.frag",
+     "#include \"value.glsl\"\n\nlayout(location = 0) out vec4 color;\nvoid main() { color = nothing; }\n"},
+    {"wants.frag",
+     "layout(location = 3) in vec4 missing;\nlayout(location = 0) out vec4 color;\nvoid main() { color = missing; }\n"},
+    {"fill.comp",
+     "layout(local_size_x = 4) in;\nlayout(std430, binding = 0) buffer Out { uint values[]; };\nvoid main() { "
+     "values[gl_GlobalInvocationID.x] = gl_GlobalInvocationID.x * 3u; }\n"},
 };
 
-ProgramSource grey(const char* value) { return {"grey", "full.vert", "grey.frag", "", {std::string("VALUE ") + value}}; }
+ProgramSource grey(const char* value) {
+  return {"grey", "full.vert", "grey.frag", "", {std::string("VALUE ") + value}};
+}
 
 /// Draws over one texel with a program and reads it: 0..255.
 int draw(Device& device, const Program& program) {
@@ -107,8 +116,10 @@ TEST_CASE("errors name program, file and line") {
     REQUIRE_FALSE(made);
     return made.error().message();
   };
-  CHECK_THAT(message({"in include", "full.vert", "broken.frag", "", {}}), Contains("in include") && Contains("broken.glsl:3") && Contains("undeclared"));
-  CHECK_THAT(message({"after include", "full.vert", "late.frag", "", {"VALUE 1.0", "MORE 1"}}), Contains("late.frag:4") && Contains("nothing"));
+  CHECK_THAT(message({"in include", "full.vert", "broken.frag", "", {}}),
+             Contains("in include") && Contains("broken.glsl:3") && Contains("undeclared"));
+  CHECK_THAT(message({"after include", "full.vert", "late.frag", "", {"VALUE 1.0", "MORE 1"}}),
+             Contains("late.frag:4") && Contains("nothing"));
   CHECK_THAT(message({"link", "full.vert", "wants.frag", "", {}}), Contains("does not link") && Contains("missing"));
   CHECK_THAT(message({"gone", "full.vert", "gone.frag", "", {}}), Contains("gone.frag"));
   CHECK_THAT(message({"empty", "", "", "", {}}), Contains("empty"));
@@ -141,7 +152,9 @@ TEST_CASE("binaries are kept, and damage costs a compilation only") {
   REQUIRE(files.size() == 1);
   std::ifstream in(files[0], std::ios::binary);
   const std::string whole{std::istreambuf_iterator<char>(in), {}};
-  const auto replace = [&](const std::string& bytes) { std::ofstream(files[0], std::ios::binary | std::ios::trunc) << bytes; };
+  const auto replace = [&](const std::string& bytes) {
+    std::ofstream(files[0], std::ios::binary | std::ios::trunc) << bytes;
+  };
   const std::size_t step = std::max<std::size_t>(1, whole.size() / 40);
   for (std::size_t at = 0; at < whole.size(); at += step) {  // a flipped byte anywhere: head, hash, body
     CAPTURE(at);

@@ -13,9 +13,13 @@ using Catch::Matchers::Contains;
 namespace {
 
 constexpr EmbeddedShader kFiles[] = {
-    {"pass/main.frag", "#pragma once\n#include \"common.glsl\"\n#include \"shading/lobe.h\"\n#include \"shading/lobe.h\"\nvoid main() {}\n"},
+    {"pass/main.frag",
+     "#pragma once\n#include \"common.glsl\"\n#include \"shading/lobe.h\"\n#include \"shading/lobe.h\"\nvoid main() "
+     "{}\n"},
     {"pass/common.glsl", "float common;\n"},
-    {"shading/lobe.h", "#pragma once\n#ifdef __cplusplus\n#include <cmath>\n#include \"only/cpp.h\"\n#else\n#include \"bridge.h\"\n#endif\nfloat lobe;\n"},
+    {"shading/lobe.h",
+     "#pragma once\n#ifdef __cplusplus\n#include <cmath>\n#include \"only/cpp.h\"\n#else\n#include "
+     "\"bridge.h\"\n#endif\nfloat lobe;\n"},
     {"shading/bridge.h", "float bridge;"},  // no newline at its end
     {"cycle/a.h", "#include \"b.h\"\n"},
     {"cycle/b.h", "\n#include \"a.h\"\n"},
@@ -34,12 +38,14 @@ TEST_CASE("includes come in once, with integer #line indices") {
   const std::vector<std::string> defines = {"LIGHTS 4", "FAST"};
   const auto text = kLibrary.resolve("pass/main.frag", defines);
   REQUIRE(text);
-  CHECK(text->files == std::vector<std::string>{"pass/main.frag", "pass/common.glsl", "shading/lobe.h", "shading/bridge.h"});
+  CHECK(text->files ==
+        std::vector<std::string>{"pass/main.frag", "pass/common.glsl", "shading/lobe.h", "shading/bridge.h"});
   CHECK(text->text ==
         "#version 450 core\n#define LIGHTS 4\n#define FAST\n"
         "#line 1 0\n\n"
         "#line 1 1\nfloat common;\n#line 3 0\n"
-        "#line 1 2\n\n#ifdef __cplusplus\n\n\n#else\n#line 1 3\nfloat bridge;\n#line 7 2\n#endif\nfloat lobe;\n#line 4 0\n"
+        "#line 1 2\n\n#ifdef __cplusplus\n\n\n#else\n#line 1 3\nfloat bridge;\n#line 7 2\n#endif\nfloat lobe;\n#line 4 "
+        "0\n"
         "\nvoid main() {}\n");
 }
 
@@ -57,10 +63,14 @@ TEST_CASE("a file's own #version 450 gives way, another is an error") {
 }
 
 TEST_CASE("faults of includes are clear errors") {
-  CHECK_THAT(kLibrary.resolve("cycle/a.h").error().message(), Contains("cycle/b.h:2") && Contains("cycle/a.h -> cycle/b.h -> cycle/a.h"));
-  CHECK_THAT(kLibrary.resolve("bad/missing.frag").error().message(), Contains("bad/missing.frag:2") && Contains("nowhere.h"));
-  CHECK_THAT(kLibrary.resolve("bad/outside.frag").error().message(), Contains("bad/outside.frag:1") && Contains("leaves"));
-  CHECK_THAT(kLibrary.resolve("bad/malformed.frag").error().message(), Contains("bad/malformed.frag:1") && Contains("malformed"));
+  CHECK_THAT(kLibrary.resolve("cycle/a.h").error().message(),
+             Contains("cycle/b.h:2") && Contains("cycle/a.h -> cycle/b.h -> cycle/a.h"));
+  CHECK_THAT(kLibrary.resolve("bad/missing.frag").error().message(),
+             Contains("bad/missing.frag:2") && Contains("nowhere.h"));
+  CHECK_THAT(kLibrary.resolve("bad/outside.frag").error().message(),
+             Contains("bad/outside.frag:1") && Contains("leaves"));
+  CHECK_THAT(kLibrary.resolve("bad/malformed.frag").error().message(),
+             Contains("bad/malformed.frag:1") && Contains("malformed"));
   CHECK_THAT(kLibrary.resolve("absent.frag").error().message(), Contains("absent.frag") && Contains("no such shader"));
   CHECK_FALSE(kLibrary.resolve("../x.frag"));
   CHECK_FALSE(kLibrary.resolve("/etc/passwd"));
@@ -82,8 +92,10 @@ TEST_CASE("the override folder wins, file by file") {
 
 TEST_CASE("compiler logs name files") {
   const std::vector<std::string> files = {"a.frag", "b/c.h"};
-  CHECK(nameFiles("0:12(5): error: no\n1:3(1): warning: x", files) == "a.frag:12(5): error: no\nb/c.h:3(1): warning: x");  // Mesa
-  CHECK(nameFiles("1(12) : error C1008: undefined", files) == "b/c.h:12 : error C1008: undefined");                        // NVIDIA
-  CHECK(nameFiles("ERROR: 0:7: 'x' : undeclared", files) == "ERROR: a.frag:7: 'x' : undeclared");                          // AMD, Intel, glslang
-  CHECK(nameFiles("9:1(1): error: value 3 of 10", files) == "9:1(1): error: value 3 of 10");                               // no such file: as it is
+  CHECK(nameFiles("0:12(5): error: no\n1:3(1): warning: x", files) ==
+        "a.frag:12(5): error: no\nb/c.h:3(1): warning: x");                                          // Mesa
+  CHECK(nameFiles("1(12) : error C1008: undefined", files) == "b/c.h:12 : error C1008: undefined");  // NVIDIA
+  CHECK(nameFiles("ERROR: 0:7: 'x' : undeclared", files) ==
+        "ERROR: a.frag:7: 'x' : undeclared");                                                 // AMD, Intel, glslang
+  CHECK(nameFiles("9:1(1): error: value 3 of 10", files) == "9:1(1): error: value 3 of 10");  // no such file: as it is
 }

@@ -18,7 +18,8 @@ struct Outcome {
 inline Outcome runSelf(const std::string& prefix, const std::string& filter) {
   std::array<char, 4096> path{};
   const ssize_t length = readlink("/proc/self/exe", path.data(), path.size() - 1);
-  const std::string command = prefix + " '" + std::string(path.data(), std::size_t(length > 0 ? length : 0)) + "' '" + filter + "' 2>&1";
+  const std::string command =
+      prefix + " '" + std::string(path.data(), std::size_t(length > 0 ? length : 0)) + "' '" + filter + "' 2>&1";
   Outcome outcome;
   FILE* pipe = popen(command.c_str(), "r");
   if (!pipe) return outcome;
