@@ -72,6 +72,14 @@ std::string startFailure(const std::filesystem::path& helper) {
 
 }  // namespace
 
+WindowMap::WindowMap(int memory) {
+  void* at = ::mmap(nullptr, kFileOffset, PROT_READ, MAP_SHARED, memory, 0);
+  if (at != MAP_FAILED) at_ = at;
+}
+WindowMap::~WindowMap() {
+  if (at_) ::munmap(at_, kFileOffset);
+}
+
 Receipt receiveMessage(int socket, void* message, std::size_t size, Deadline deadline) {
   for (;;) {
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - std::chrono::steady_clock::now()).count();
@@ -142,7 +150,9 @@ Result<Worker> DecodeKeeper::fork(const std::filesystem::path& helper, std::uint
   Worker worker;
   core::UniqueFd theirs;
   worker.memory.reset(::memfd_create("burnish-decode", MFD_CLOEXEC | MFD_ALLOW_SEALING));
-  if (!worker.memory || ::fcntl(worker.memory.get(), F_ADD_SEALS, F_SEAL_SHRINK) != 0 || !socketPair(worker.socket, theirs))
+  const bool sized = worker.memory && ::ftruncate(worker.memory.get(), kFileOffset) == 0 && ::fcntl(worker.memory.get(), F_ADD_SEALS, F_SEAL_SHRINK) == 0;
+  if (sized) worker.windows = WindowMap(worker.memory.get());
+  if (!worker.windows || !socketPair(worker.socket, theirs))
     return fail("decoder pool", fmt::format("no socket or shared memory for a helper ({})", std::strerror(errno)), "close some files");
   const int descriptors[2] = {theirs.get(), worker.memory.get()};
   for (int tries = 0; tries < 2; ++tries) {
@@ -162,6 +172,7 @@ Result<Worker> DecodeKeeper::fork(const std::filesystem::path& helper, std::uint
 int DecodeKeeper::end(Worker& worker) {
   worker.socket.reset();
   worker.memory.reset();
+  worker.windows = {};
   const pid_t pid = std::exchange(worker.pid, -1);
   KeeperAnswer answer;
   if (pid <= 0 || !socket_) return -1;

@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <utility>
 
 #include "core/unique_fd.h"
 #include "image/decode_protocol.h"
@@ -19,11 +20,32 @@ Receipt receiveMessage(int socket, void* message, std::size_t size, Deadline dea
 /// False when the other end is gone.
 bool sendMessage(int socket, const void* message, std::size_t size);
 
+/// The windows of a worker's memory, mapped for reading.
+class WindowMap {
+ public:
+  WindowMap() = default;
+  explicit WindowMap(int memory);
+  WindowMap(WindowMap&& other) noexcept : at_(std::exchange(other.at_, nullptr)) {}
+  WindowMap& operator=(WindowMap&& other) noexcept {
+    std::swap(at_, other.at_);
+    return *this;
+  }
+  WindowMap(const WindowMap&) = delete;
+  WindowMap& operator=(const WindowMap&) = delete;
+  ~WindowMap();
+  [[nodiscard]] const std::byte* window(std::size_t index) const { return static_cast<const std::byte*>(at_) + index * kWindowBytes; }
+  [[nodiscard]] explicit operator bool() const { return at_ != nullptr; }
+
+ private:
+  void* at_ = nullptr;
+};
+
 /// One worker as the keeper made it. Closing the socket makes it exit.
 struct Worker {
   pid_t pid = -1;
   core::UniqueFd socket;
   core::UniqueFd memory;  ///< memfd, sealed against shrinking
+  WindowMap windows;
   [[nodiscard]] bool alive() const { return static_cast<bool>(socket); }
 };
 

@@ -6,13 +6,16 @@
 //
 //   program --- kKeeperSocket (SOCK_SEQPACKET) --- keeper      KeeperOrder -> KeeperAnswer (first of all a Ready answer)
 //   program --- a SOCK_SEQPACKET pair a worker --- worker      DecodeRequest -> DecodeAnswer
-//   program === a memfd a worker ================= worker      file bytes at 0, pixels at DecodeRequest::pixelOffset
+//   program === a memfd a worker ================= worker      kWindows windows for pixels, then the file's bytes
 //
-// Pixels go through shared memory: the worker decodes straight into it and the program copies them out once (a 4096 x 2048
-// float HDR is 100 MB; a pipe would copy it twice more). The program sizes the memfd and seals it against shrinking, so no
-// worker can pull pages from under it. A socket keeps message boundaries; every message is one of these structs, whole.
-// Both ends are the same build on the same machine, so byte order and layout are those of the compiler.
+// Pixels pass through windows of shared memory: the worker decodes rows straight into one while the program copies the other out,
+// so that these pages stay in the caches and no more memory is touched than the picture takes (measured with a 4096 x 2048 float
+// HDR of 100 MB: docs/decisions). The program sizes the memfd and seals it against shrinking, so no worker can pull pages from
+// under it. A socket keeps message boundaries; every message is one of these structs, whole.
+//
+//   DecodeRequest ->  <- Header  <- Pixels (window 0)  <- Pixels (window 1)  WindowFree ->  <- Pixels (window 0)  ...  or  <- Failed
 #pragma once
+#include <cstddef>
 #include <cstdint>
 
 namespace burnish::image {
@@ -37,23 +40,33 @@ struct KeeperAnswer {
   std::int32_t status = 0;                       ///< Ready: kDecodeLayout. End: as waitpid gives it. Fork that failed: errno
 };
 
+inline constexpr std::size_t kWindows = 2;
+inline constexpr std::size_t kWindowBytes = 1024 * 1024;               ///< a multiple of every page size in use
+inline constexpr std::size_t kFileOffset = kWindows * kWindowBytes;    ///< of the file's bytes in the memfd
+
 struct DecodeRequest {
   std::uint32_t magic = kDecodeMagic;
-  std::int32_t maxSide = 0;
-  std::uint64_t fileBytes = 0;      ///< at offset 0 of the memfd
-  std::uint64_t pixelOffset = 0;    ///< a multiple of the page size
-  std::uint64_t pixelCapacity = 0;  ///< bytes there
-  std::uint64_t maxBytes = 0;       ///< DecodeLimits::maxBytes
-  double seconds = 0;               ///< CPU time for this picture
+  std::int32_t maxSide = 0;     ///< DecodeLimits
+  std::uint64_t maxBytes = 0;   ///< DecodeLimits
+  double seconds = 0;           ///< CPU time for this picture
+  std::uint64_t fileBytes = 0;  ///< at kFileOffset
 };
+
+enum class AnswerKind : std::uint32_t { Failed, Header, Pixels };
 
 struct DecodeAnswer {
   std::uint32_t magic = kDecodeMagic;
-  std::uint32_t ok = 0;
-  std::int32_t width = 0, height = 0, channels = 0;
-  std::uint32_t type = 0;  ///< PixelType
-  char what[232] = {};    ///< Error::what and Error::remedy, when not ok; each ends in a zero
+  AnswerKind kind = AnswerKind::Failed;
+  std::int32_t width = 0, height = 0, channels = 0;  ///< Header
+  std::uint32_t type = 0;                            ///< Header: PixelType
+  std::uint64_t bytes = 0;                           ///< Pixels: how many, from the start of the window whose turn it is
+  char what[232] = {};                               ///< Failed: Error::what and Error::remedy; each ends in a zero
   char remedy[128] = {};
+};
+
+/// Each allows the worker one more message of Pixels, beyond the first kWindows.
+struct WindowFree {
+  std::uint32_t magic = kDecodeMagic;
 };
 
 /// Tells a helper of another build apart, which would misread every message.

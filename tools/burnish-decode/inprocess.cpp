@@ -5,23 +5,29 @@
 namespace burnish {
 namespace {
 
+struct VectorSink final : decode::PixelSink {
+  std::vector<std::byte> pixels;
+  std::size_t filled = 0;
+  bool begin(const decode::Decoded&, std::size_t bytes) override {
+    pixels.resize(bytes);
+    return true;
+  }
+  std::span<std::byte> room() override { return std::span(pixels).subspan(filled); }
+  bool commit(std::size_t bytes) override {
+    filled += bytes;
+    return true;
+  }
+};
+
 class InProcessDecoder final : public ImageDecoder {
  public:
   InProcessDecoder() { decode::prepareOpenImageIo(); }
 
   Result<Image> decode(std::span<const std::byte> file, std::string_view name, const DecodeLimits& limits) override {
-    Image image;
-    const auto place = [&](const decode::Decoded&, std::size_t bytes) {
-      image.data.resize(bytes);
-      return image.data.data();
-    };
-    auto decoded = decode::decodePicture(file, name, limits, place);
+    VectorSink sink;
+    auto decoded = decode::decodePicture(file, name, limits, sink);
     if (!decoded) return fail(decoded.error());
-    image.width = decoded->width;
-    image.height = decoded->height;
-    image.channels = decoded->channels;
-    image.type = decoded->type;
-    return image;
+    return Image{decoded->width, decoded->height, decoded->channels, decoded->type, std::move(sink.pixels)};
   }
 };
 

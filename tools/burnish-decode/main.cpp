@@ -76,48 +76,84 @@ void allowCpu(double seconds) {
   ::setrlimit(RLIMIT_CPU, &now);
 }
 
-/// The request's two regions of the shared memory.
-struct Mapped {
-  void* at = MAP_FAILED;
-  std::size_t size = 0;
-  Mapped(std::size_t bytes, int protection, off_t offset) : size(bytes) {
-    if (bytes > 0) at = ::mmap(nullptr, bytes, protection, MAP_SHARED, kWorkerMemory, offset);
+/// A region of the shared memory.
+class Mapped {
+ public:
+  Mapped(std::size_t bytes, int protection, off_t offset) : size_(bytes) {
+    if (bytes > 0) at_ = ::mmap(nullptr, bytes, protection, MAP_SHARED, kWorkerMemory, offset);
   }
   Mapped(const Mapped&) = delete;
   Mapped& operator=(const Mapped&) = delete;
   ~Mapped() {
-    if (at != MAP_FAILED) ::munmap(at, size);
+    if (at_ != MAP_FAILED) ::munmap(at_, size_);
   }
-  [[nodiscard]] bool ok() const { return at != MAP_FAILED; }
+  [[nodiscard]] bool ok() const { return at_ != MAP_FAILED; }
+  [[nodiscard]] std::span<std::byte> bytes() const { return {static_cast<std::byte*>(at_), size_}; }
+
+ private:
+  std::size_t size_;
+  void* at_ = MAP_FAILED;
 };
 
-DecodeAnswer decode(const DecodeRequest& request) {
-  DecodeAnswer answer;
-  Error error{"", "there is no memory to decode it", "make the picture smaller"};
-  const Mapped file(request.fileBytes, PROT_READ, 0);
-  const Mapped pixels(request.pixelCapacity, PROT_READ | PROT_WRITE, static_cast<off_t>(request.pixelOffset));
-  if (file.ok() && pixels.ok()) {
-    const DecodeLimits limits{request.maxSide, request.maxBytes, request.seconds};
-    const auto place = [&](const decode::Decoded&, std::size_t bytes) { return bytes <= pixels.size ? static_cast<std::byte*>(pixels.at) : nullptr; };
-    auto decoded = decode::decodePicture({static_cast<const std::byte*>(file.at), request.fileBytes}, "", limits, place);
-    if (decoded) {
-      answer.ok = 1;
-      answer.width = decoded->width, answer.height = decoded->height, answer.channels = decoded->channels;
-      answer.type = static_cast<std::uint32_t>(decoded->type);
-      return answer;
+/// Pixels to the pool, a window at a time.
+class WindowSink final : public decode::PixelSink {
+ public:
+  explicit WindowSink(std::span<std::byte> windows) : windows_(windows) {}
+
+  bool begin(const decode::Decoded& layout, std::size_t) override {
+    DecodeAnswer header{kDecodeMagic, AnswerKind::Header, layout.width, layout.height, layout.channels};
+    header.type = static_cast<std::uint32_t>(layout.type);
+    return sendMessage(kWorkerSocket, header);
+  }
+  std::span<std::byte> room() override {
+    if (owed_ == kWindows) {
+      WindowFree message;
+      if (!receiveMessage(kWorkerSocket, message)) ::_exit(0);  // the pool has given up on this picture
+      --owed_;
     }
+    return windows_.subspan(turn_ * kWindowBytes, kWindowBytes);
+  }
+  bool commit(std::size_t bytes) override {
+    DecodeAnswer pixels{kDecodeMagic, AnswerKind::Pixels};
+    pixels.bytes = bytes;
+    turn_ = (turn_ + 1) % kWindows;
+    ++owed_;
+    return sendMessage(kWorkerSocket, pixels);
+  }
+  /// Takes in what is still under way, so that the next message is the next request.
+  void finish() {
+    WindowFree message;
+    for (; owed_ > 0; --owed_)
+      if (!receiveMessage(kWorkerSocket, message)) ::_exit(0);
+  }
+
+ private:
+  std::span<std::byte> windows_;
+  std::size_t turn_ = 0, owed_ = 0;  ///< owed: windows sent whose WindowFree was not received
+};
+
+void answerRequest(const DecodeRequest& request, std::span<std::byte> windows) {
+  Error error{"", "there is no memory to decode it", "make the picture smaller"};
+  const Mapped file(request.fileBytes, PROT_READ, kFileOffset);
+  if (file.ok()) {
+    WindowSink sink(windows);
+    auto decoded = decode::decodePicture(file.bytes(), "", {request.maxSide, request.maxBytes, request.seconds}, sink);
+    sink.finish();
+    if (decoded) return;
     error = decoded.error();
   }
+  DecodeAnswer answer;
   std::strncpy(answer.what, error.what.c_str(), sizeof answer.what - 1);
   std::strncpy(answer.remedy, error.remedy.c_str(), sizeof answer.remedy - 1);
-  return answer;
+  sendMessage(kWorkerSocket, answer);
 }
 
 [[noreturn]] void serveAsWorker() {
+  const Mapped windows(kFileOffset, PROT_READ | PROT_WRITE, 0);
   DecodeRequest request;
-  while (receiveMessage(kWorkerSocket, request)) {
+  while (windows.ok() && receiveMessage(kWorkerSocket, request)) {
     allowCpu(request.seconds);
-    if (!sendMessage(kWorkerSocket, decode(request))) break;
+    answerRequest(request, windows.bytes());
   }
   ::_exit(0);  // no destructors: this is a fork
 }

@@ -64,22 +64,78 @@ void orientHdr(const OIIO::ImageSpec& spec, const Rows& rows) {
 }
 
 /// OpenEXR whose data window is not the display window: the part of the data that lies inside, the rest stays zero.
-bool readWindowed(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, OIIO::TypeDesc type, const Rows& rows, int channels) {
-  std::vector<std::byte> data(std::size_t(spec.width) * std::size_t(spec.height) * rows.pixelBytes);
-  if (!input.read_image(0, 0, 0, channels, type, data.data())) return false;
-  std::memset(rows.data, 0, rows.rowBytes * std::size_t(rows.height));
+void placeWindow(const OIIO::ImageSpec& spec, const std::vector<std::byte>& data, const Rows& rows) {
   const int x0 = std::max(spec.x, spec.full_x), x1 = std::min(spec.x + spec.width, spec.full_x + spec.full_width);
   const int y0 = std::max(spec.y, spec.full_y), y1 = std::min(spec.y + spec.height, spec.full_y + spec.full_height);
-  if (x0 >= x1) return true;
-  for (int y = y0; y < y1; ++y)
+  for (int y = y0; x0 < x1 && y < y1; ++y)
     std::memcpy(rows.data + std::size_t(y - spec.full_y) * rows.rowBytes + std::size_t(x0 - spec.full_x) * rows.pixelBytes,
                 data.data() + (std::size_t(y - spec.y) * std::size_t(spec.width) + std::size_t(x0 - spec.x)) * rows.pixelBytes,
                 std::size_t(x1 - x0) * rows.pixelBytes);
+}
+
+struct Source {
+  OIIO::ImageInput& input;
+  const OIIO::ImageSpec& spec;
+  Decoded layout;
+  [[nodiscard]] OIIO::TypeDesc type() const { return oiioType(layout.type); }
+  [[nodiscard]] std::size_t pixelBytes() const { return std::size_t(layout.channels) * std::size_t(bytesPerChannel(layout.type)); }
+  [[nodiscard]] std::size_t rowBytes() const { return pixelBytes() * std::size_t(layout.width); }
+  [[nodiscard]] bool windowed() const {
+    return spec.x != spec.full_x || spec.y != spec.full_y || spec.width != layout.width || spec.height != layout.height;
+  }
+};
+
+/// Hands over what is in memory already.
+bool copyTo(PixelSink& sink, std::span<const std::byte> pixels) {
+  while (!pixels.empty()) {
+    const std::span<std::byte> room = sink.room();
+    const std::size_t n = std::min(room.size(), pixels.size());
+    std::copy_n(pixels.begin(), n, room.begin());
+    if (!sink.commit(n)) return false;
+    pixels = pixels.subspan(n);
+  }
+  return true;
+}
+
+/// Tiles, windows and turned pictures: decoded whole, then handed over.
+bool decodeWhole(const Source& source, PixelSink& sink, bool turned) {
+  const OIIO::ImageSpec& spec = source.spec;
+  std::vector<std::byte> pixels(std::size_t(spec.width) * std::size_t(spec.height) * source.pixelBytes());
+  if (!source.input.read_image(0, 0, 0, source.layout.channels, source.type(), pixels.data())) return false;
+  if (source.windowed()) {
+    std::vector<std::byte> display(source.rowBytes() * std::size_t(source.layout.height));
+    placeWindow(spec, pixels, {display.data(), source.rowBytes(), source.pixelBytes(), source.layout.width, source.layout.height});
+    pixels = std::move(display);
+  }
+  if (turned) orientHdr(spec, {pixels.data(), source.rowBytes(), source.pixelBytes(), source.layout.width, source.layout.height});
+  return copyTo(sink, pixels);
+}
+
+/// Rows straight into the sink, as many as its room holds.
+bool decodeByRows(const Source& source, PixelSink& sink) {
+  const int y0 = source.spec.y, height = source.layout.height;
+  constexpr int kBlock = 32;  // OpenEXR's largest block of rows in common compressions: whole ones are not decoded twice
+  for (int y = 0; y < height;) {
+    const std::span<std::byte> room = sink.room();
+    const std::size_t fitting = room.size() / source.rowBytes();
+    int rows = static_cast<int>(std::min<std::size_t>(fitting, std::size_t(height - y)));
+    if (rows > kBlock && y + rows < height) rows -= rows % kBlock;
+    if (rows > 0) {
+      if (!source.input.read_scanlines(0, 0, y0 + y, y0 + y + rows, 0, 0, source.layout.channels, source.type(), room.data()) ||
+          !sink.commit(std::size_t(rows) * source.rowBytes()))
+        return false;
+    } else {  // one row is longer than the room
+      std::vector<std::byte> row(source.rowBytes());
+      rows = 1;
+      if (!source.input.read_scanlines(0, 0, y0 + y, y0 + y + 1, 0, 0, source.layout.channels, source.type(), row.data()) || !copyTo(sink, row)) return false;
+    }
+    y += rows;
+  }
   return true;
 }
 
 Result<Decoded> decodeThrowing(std::span<const std::byte> file, std::string_view name, const PictureHeader& header, const DecodeLimits& limits,
-                               const Placement& place) {
+                               PixelSink& sink) {
   OIIO::Filesystem::IOMemReader memory(const_cast<std::byte*>(file.data()), file.size());
   OIIO::ImageSpec config;
   config.attribute("oiio:UnassociatedAlpha", 1);
@@ -90,22 +146,17 @@ Result<Decoded> decodeThrowing(std::span<const std::byte> file, std::string_view
   if (!input->set_ioproxy(&memory) || !input->open("picture", spec, config)) return damaged(name, input->geterror());
   if (!agrees(spec, header)) return damaged(name, "its parts contradict its header");
 
-  Decoded decoded{header.width, header.height, std::min(spec.nchannels, 4), header.type};
+  const Source source{*input, spec, {header.width, header.height, std::min(spec.nchannels, 4), header.type}};
   PictureHeader actual = header;
-  actual.channels = decoded.channels;
+  actual.channels = source.layout.channels;
   if (auto ok = image::checkPictureLimits(actual, limits, name); !ok) return fail(ok.error());
-  std::byte* pixels = place(decoded, actual.decodedBytes());
-  if (!pixels) return fail(std::string(name), "there is no memory for its pixels", "make the picture smaller");
+  if (!sink.begin(source.layout, actual.decodedBytes())) return fail(std::string(name), "there is no memory for its pixels", "make the picture smaller");
 
-  const std::size_t pixelBytes = std::size_t(decoded.channels) * std::size_t(bytesPerChannel(decoded.type));
-  const Rows rows{pixels, pixelBytes * std::size_t(decoded.width), pixelBytes, decoded.width, decoded.height};
-  const OIIO::TypeDesc type = oiioType(decoded.type);
-  const bool whole = header.format != PictureFormat::Exr || (spec.x == spec.full_x && spec.y == spec.full_y && spec.width == spec.full_width &&
-                                                             spec.height == spec.full_height);
-  const bool read = whole ? input->read_image(0, 0, 0, decoded.channels, type, pixels) : readWindowed(*input, spec, type, rows, decoded.channels);
+  const bool turned = header.format == PictureFormat::Hdr && spec.get_int_attribute("Orientation", 1) != 1;
+  const bool windowed = header.format == PictureFormat::Exr && source.windowed();
+  const bool read = turned || windowed || spec.tile_width != 0 ? decodeWhole(source, sink, turned) : decodeByRows(source, sink);
   if (!read) return damaged(name, input->geterror());
-  if (header.format == PictureFormat::Hdr) orientHdr(spec, rows);
-  return decoded;
+  return source.layout;
 }
 
 }  // namespace
@@ -117,12 +168,12 @@ void prepareOpenImageIo() {
   (void)OIIO::geterror();
 }
 
-Result<Decoded> decodePicture(std::span<const std::byte> file, std::string_view name, const DecodeLimits& limits, const Placement& place) {
+Result<Decoded> decodePicture(std::span<const std::byte> file, std::string_view name, const DecodeLimits& limits, PixelSink& sink) {
   auto header = image::readPictureHeader(file, name);
   if (!header) return fail(header.error());
   if (auto ok = image::checkPictureLimits(*header, limits, name); !ok) return fail(ok.error());
   try {
-    return decodeThrowing(file, name, *header, limits, place);
+    return decodeThrowing(file, name, *header, limits, sink);
   } catch (const std::bad_alloc&) {
     return fail(std::string(name), "takes more memory to decode than allowed", "make the picture smaller, or export it again if it is damaged");
   } catch (const std::exception& e) {
