@@ -8,7 +8,7 @@ void printScene(const burnish::Scene& scene, const burnish::Report& report, cons
 void printPicture(const burnish::Image& image, const std::string& name);
 void printSubstance(const burnish::Substance& substance);
 
-/// What a range of substance codes means: "dielectric, F0 0.040 (IOR 1.50)", "metal 100 %", "dielectric to metal 80 %".
+/// What a range of substance codes means: "dielectric, F0 0.040 (IOR 1.50)", "metal 100 %", "dielectric of F0 0.040 (IOR 1.50) to metal 80 %".
 std::string describeCodes(float least, float most);
 
 }  // namespace cli

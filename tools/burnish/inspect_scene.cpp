@@ -124,7 +124,7 @@ std::string describeCodes(float least, float most) {
   if (most <= kLastDielectric) return "dielectric, " + dielectric(least) + (same ? "" : " to " + dielectric(most));
   if (same) return fmt::format("metal {} %", metalPercent(most));
   if (least > kLastDielectric) return fmt::format("metal {} to {} %", metalPercent(least), metalPercent(most));
-  return fmt::format("dielectric, {}, to metal {} %", dielectric(least), metalPercent(most));
+  return fmt::format("dielectric of {} to metal {} %", dielectric(least), metalPercent(most));
 }
 
 void printScene(const Scene& scene, const burnish::Report& report, const std::string& name) {

@@ -45,12 +45,11 @@ class WriteSection {
 
 std::string reason() { return std::strerror(errno); }
 
-/// Where the bytes go: the file that a link points to, so that the link stays one.
-fs::path destination(const fs::path& file) {
+/// Where the bytes go: the file that a link points to, there or not yet, so that the link stays one.
+fs::path destination(fs::path file) {
   std::error_code error;
-  if (!fs::is_symlink(file, error)) return file;
-  const fs::path target = fs::weakly_canonical(file, error);
-  return error ? file : target;
+  for (int hops = 0; hops < 40 && fs::is_symlink(file, error); ++hops) file = file.parent_path() / fs::read_symlink(file, error);
+  return file;
 }
 
 Result<void> writeWhole(const fs::path& file, std::string_view text) {

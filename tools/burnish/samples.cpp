@@ -36,9 +36,11 @@ std::vector<std::string> sampleNames() {
 
 burnish::Result<fs::path> resolveScene(const std::string& scene) {
   std::error_code error;
-  if (fs::exists(scene, error)) return fs::path(scene);
   const std::vector<std::string> names = sampleNames();
-  if (std::find(names.begin(), names.end(), scene) != names.end()) return sceneIn(samplesFolder() / scene);
+  const bool isSample = std::find(names.begin(), names.end(), scene) != names.end();
+  // A folder that happens to be called like a sample (the one in samples/, say) is no scene.
+  if (fs::exists(scene, error) && !(isSample && fs::is_directory(scene, error))) return fs::path(scene);
+  if (isSample) return sceneIn(samplesFolder() / scene);
   const std::string samples = names.empty() ? fmt::format("no samples are installed in {}", samplesFolder().string()) : "samples: " + listed(names);
   return burnish::fail(scene, "no such file or sample" + didYouMean(scene, names), fmt::format("give a .gltf or .glb file or a sample ({})", samples));
 }
