@@ -52,10 +52,13 @@ TEST_CASE("profile: wall and process time of each pass, at once") {
   GlFixture f;
   const Targets targets(*f.device);
   FrameTimers timers(*f.device);
-  frame(*f.device, timers, targets, Timing::Profile);
-  frame(*f.device, timers, targets, Timing::Profile);
-  REQUIRE(timers.latest().size() == 2);
-  const PassSample &light = timers.latest()[0], &heavy = timers.latest()[1];
+  PassSample light{"", 1e9, 0}, heavy = light;  // the least of several frames: other programs run, too
+  for (int i = 0; i < 8; ++i) {
+    frame(*f.device, timers, targets, Timing::Profile);
+    REQUIRE(timers.latest().size() == 2);
+    if (timers.latest()[0].gpuMs < light.gpuMs) light = timers.latest()[0];
+    if (timers.latest()[1].gpuMs < heavy.gpuMs) heavy = timers.latest()[1];
+  }
   CHECK(light.name == "light");
   CHECK(heavy.name == "heavy");
   CHECK(light.gpuMs > 0);
