@@ -9,7 +9,7 @@ import re
 import sys
 import tempfile
 
-PUBLIC_LAYERS = {"result": 1, "image": 1, "context": 1, "material": 2, "scene": 3, "quality": 3, "plan": 3, "renderer": 6}
+PUBLIC_LAYERS = {"result": 1, "image": 1, "context": 1, "material": 2, "scene": 3, "quality": 2, "plan": 3, "renderer": 6}
 PASSES = {"gbuffer", "lighting", "post"}
 NO_GL = {"core", "image", "asset", "material", "prefilter", "reference", "scene", "plan"}
 GL_USERS = {"gl", "gpu_scene", "gbuffer", "lighting", "post", "renderer", "context"}
