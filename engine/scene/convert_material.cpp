@@ -78,14 +78,9 @@ void MaterialConverter::mapA(const asset::Material& in, Material& out, const Slo
   dielectric.strength = compatibleOrMean(dielectric.strength, lead, "specularTexture", strength, false);
   dielectric.color = compatibleOrMean(dielectric.color, lead, "specularColorTexture", color, true);
   dielectric.f0 *= glm::vec3(color) * strength.w;
-  if (!dielectric.strength && !dielectric.color) reportDielectric(dielectric.f0);
   const float f0 = (dielectric.f0.x + dielectric.f0.y + dielectric.f0.z) / 3;
-  if (!lead) {
-    const float m = *metalness;
-    out.substance = m < material::kMetalnessStart ? encodeDielectric(f0) : encodeMetalness(m);
-    reportError(material::metalnessError(m, f0), "partly metallic");
-    return;
-  }
+  if (!lead) return substance(out, *metalness, dielectric.f0);
+  if (const char* why = dielectric.strength || dielectric.color ? nullptr : whyNoDielectric(dielectric.f0)) reportError({dielectricError(dielectric.f0), 0}, why);
   const float factor = metalness ? *metalness : in.metallic;
   const std::string key = fmt::format("A {} {} {} {} {} {} {} {} {}", base.picture, metalRough.picture, factor, dielectric.f0.x, dielectric.f0.y, dielectric.f0.z,
                                       dielectric.strength.picture, dielectric.color.picture, keyOf(lead.sampler));
@@ -99,7 +94,25 @@ void MaterialConverter::mapA(const asset::Material& in, Material& out, const Slo
   });
   out.mapA = made.texture;
   out.uvA = lead.mapping;
-  reportError(made.error, "partly metallic or coloured specular");
+  reportError(made.error, "partly metallic texels or coloured specular");
+}
+
+// A material without pictures for map A. Dielectrics that the codec lacks may lie nearer to one of its conductors.
+void MaterialConverter::substance(Material& out, float metalness, const glm::vec3& f0) {
+  const float mean = (f0.x + f0.y + f0.z) / 3;
+  if (metalness >= material::kMetalnessStart) {
+    out.substance = encodeMetalness(metalness);
+    return reportError(material::metalnessError(metalness, mean), "partly metallic");
+  }
+  out.substance = encodeDielectric(mean);
+  const char* why = whyNoDielectric(f0);
+  if (!why) return reportError(material::metalnessError(metalness, mean), "partly metallic");
+  ConversionError error;
+  const material::CodedTexel texel = material::nearestTexel({f0, out.albedo}, error);
+  if (material::codeTable()[texel.code].metalness == 0) return reportError({dielectricError(f0), 0}, why);
+  out.substance = float(texel.code) / 255;
+  out.albedo = texel.albedo;
+  reportError(error, why);
 }
 
 // Map B, or the roughness alone when nothing varies. With a normal map the factor is baked: its mips widen the lobe, and a factor on top would scale that too.
@@ -191,7 +204,9 @@ glm::vec3 MaterialConverter::checked(const glm::vec3& value, float high, const c
 
 void MaterialConverter::reportError(const ConversionError& error, const char* why) {
   if (error.f0 < 0.002f && error.diffuse < 0.004f) return;  // within what 8 bits round
-  warn(fmt::format("{}: reflectance is off by up to {:.4f}, diffuse by up to {:.4f}", why, error.f0, error.diffuse));
+  std::string text = fmt::format("{}: reflectance is off by up to {:.4f}", why, error.f0);
+  if (error.diffuse >= 0.00005f) text += fmt::format(", diffuse by up to {:.4f}", error.diffuse);
+  warn(std::move(text));
 }
 
 }  // namespace burnish::scene

@@ -9,6 +9,11 @@
 
 namespace burnish::scene {
 
+/// How far the codec's nearest grey dielectric is from an F0.
+float dielectricError(const glm::vec3& f0);
+/// Why the codec has no dielectric of this F0, in words; nullptr when it has one.
+const char* whyNoDielectric(const glm::vec3& f0);
+
 class MaterialConverter {
  public:
   /// The asset must outlive the converter. Textures and materials are added to `scene`; what does not fit goes to `report` with its error.
@@ -32,6 +37,7 @@ class MaterialConverter {
   void metalRough(const asset::Material& in, Material& out);
   void keepApart(const asset::Material& in, Material& out, const Slot& base, const Slot& normal, const Slot& metalRough);
   void mapA(const asset::Material& in, Material& out, const Slot& base, const Slot& metalRough, std::optional<float> metalness);
+  void substance(Material& out, float metalness, const glm::vec3& f0);
   void mapB(Material& out, const Slot& normal, float normalScale, const Slot& rough, int channel, bool gloss, float factor);
   void mapC(const asset::Material& in, Material& out, const Slot& base, bool vertexAlpha);
   void emission(const asset::Material& in, Material& out);
@@ -44,7 +50,6 @@ class MaterialConverter {
     Slot strength, color;                ///< KHR_materials_specular's textures
   };
   Dielectric dielectricOf(const asset::Material& in);
-  void reportDielectric(const glm::vec3& f0);
   Slot compatibleOrMean(const Slot& slot, const Slot& partner, const char* what, glm::vec4& factor, bool srgb);
 
   /// The texture made earlier under this key, or a new one from `make`.

@@ -16,15 +16,17 @@ MaterialConverter::Dielectric MaterialConverter::dielectricOf(const asset::Mater
   return {glm::min(f0FromIor(ior) * color, glm::vec3(1)) * strength, pictures_.slot(in.specularTexture), pictures_.slot(in.specularColorTexture)};
 }
 
-void MaterialConverter::reportDielectric(const glm::vec3& f0) {
+float dielectricError(const glm::vec3& f0) {
+  const float shown = std::clamp((f0.x + f0.y + f0.z) / 3, material::kWaterF0, material::kGemF0);
+  return std::max({std::abs(f0.x - shown), std::abs(f0.y - shown), std::abs(f0.z - shown)});
+}
+
+const char* whyNoDielectric(const glm::vec3& f0) {
+  if (dielectricError(f0) < 0.002f) return nullptr;
   const float mean = (f0.x + f0.y + f0.z) / 3;
-  const float shown = std::clamp(mean, material::kWaterF0, material::kGemF0);
-  const float error = std::max({std::abs(f0.x - shown), std::abs(f0.y - shown), std::abs(f0.z - shown)});
-  if (error < 0.002f) return;
-  const char* why = mean < material::kWaterF0   ? "is under water's 0.0196, the least that a surface in air has"
-                    : mean > material::kGemF0 ? "is above 0.25, the most that a dielectric can have here"
-                                              : "is coloured, which a dielectric cannot be here";
-  warn(fmt::format("its dielectric F0 ({:.4f}, {:.4f}, {:.4f}) {}: {:.4f} is used, off by up to {:.4f}", f0.x, f0.y, f0.z, why, shown, error));
+  if (mean < material::kWaterF0) return "its dielectric F0 is under water's 0.0196, the least that a surface in air has";
+  if (mean > material::kGemF0) return "its dielectric F0 is above 0.25, the most that a dielectric can have here";
+  return "its dielectric F0 is coloured, which a dielectric cannot be here";
 }
 
 /// `slot` itself when it can be read together with `partner`; else its mean goes into `factor` (a, rgb) and the result is empty.

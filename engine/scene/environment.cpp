@@ -62,15 +62,13 @@ Image environmentMap(const Image& image, const std::string& place, Report& repor
   return out;
 }
 
-Result<void> readEnvironment(Scene& scene, const std::filesystem::path& file, const LoadOptions& options, ImageDecoder& decoder, Report& report) {
-  auto bytes = core::readFile(file, options.maxFileBytes);
-  if (!bytes) return fail(bytes.error());
-  auto image = decoder.decode(*bytes, file.filename().string());
+Result<void> decodeEnvironment(Scene& scene, std::span<const std::byte> file, const std::string& place, ImageDecoder& decoder, Report& report) {
+  auto image = decoder.decode(file, place);
   if (!image) return fail(image.error());
-  if (image->width < 1 || image->height < 1 || image->channels < 1) return fail(file.string(), "the picture has no pixels", "give a lat-long picture (HDR or EXR)");
+  if (image->width < 1 || image->height < 1 || image->channels < 1) return fail(place, "the picture has no pixels", "give a lat-long picture (HDR or EXR)");
   if (image->width != 2 * image->height)
-    report.warn(file.string(), fmt::format("is {}x{}, not twice as wide as high: it is taken for a lat-long picture all the same", image->width, image->height));
-  scene.environment.map = environmentMap(*image, file.string(), report);
+    report.warn(place, fmt::format("is {}x{}, not twice as wide as high: it is taken for a lat-long picture all the same", image->width, image->height));
+  scene.environment.map = environmentMap(*image, place, report);
   ++scene.environment.revision;
   return {};
 }
@@ -78,9 +76,11 @@ Result<void> readEnvironment(Scene& scene, const std::filesystem::path& file, co
 }  // namespace scene
 
 Result<void> loadEnvironment(Scene& scene, const std::filesystem::path& file, const LoadOptions& options, Report& report) {
+  auto bytes = core::readFile(file, options.maxFileBytes);
+  if (!bytes) return fail(bytes.error());
   std::unique_ptr<ImageDecoder> own;
   if (!options.decoder) own = makeDecoderPool();
-  return scene::readEnvironment(scene, file, options, options.decoder ? *options.decoder : *own, report);
+  return scene::decodeEnvironment(scene, *bytes, file.filename().string(), options.decoder ? *options.decoder : *own, report);
 }
 
 }  // namespace burnish

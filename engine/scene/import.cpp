@@ -6,6 +6,7 @@
 #include "scene/convert_material.h"
 #include "scene/load.h"
 #include "scene/tangents.h"
+#include "scene/validate.h"
 
 namespace burnish {
 namespace scene {
@@ -57,6 +58,7 @@ class Importer {
         if (auto r = primitive(m, p); !r) return r;
         if (auto t = inTime(); !t) return t;
       }
+    faults_.report(asset_.name, report_);
     return {};
   }
 
@@ -74,7 +76,7 @@ class Importer {
     out.uv1 = std::move(in.uv1);
     out.colors = std::move(in.colors);
     out.indices = std::move(in.indices);
-    auto good = validated(std::move(out), report_);
+    auto good = validated(std::move(out), faults_);
     if (!good) return fail(fmt::format("{}: /meshes/{}/primitives/{}", asset_.name, m, p), good.error().what, good.error().remedy);
     if (material.normalMap && good->tangents.empty() && !good->indices.empty()) {
       if ((material.normalMap->set == 1 ? good->uv1 : good->uv0).empty())
@@ -134,15 +136,16 @@ class Importer {
   Scene scene_;
   MaterialConverter converter_;
   std::vector<MaterialConverter::Converted> materials_;
+  MeshFaults faults_;                      ///< of all meshes together: one warning for each kind
   std::vector<std::vector<Part>> meshes_;  ///< by the asset's mesh
 };
 
-/// The file's own environment. A path that leaves the folder is an error as for any other reference; a picture that cannot be read is a warning.
+/// The file's own environment. A path that is missing or leaves the folder is an error as for buffers; a picture that cannot be decoded is a warning.
 Result<void> ownEnvironment(Scene& scene, const std::filesystem::path& file, const std::string& uri, const LoadOptions& options, ImageDecoder& decoder, Report& report) {
-  auto path = core::resolveInside(file.parent_path(), uri, options.allowOutside);
-  if (!path) return fail(file.string() + ": /scenes/extras/burnish/environment", path.error().what, path.error().remedy);
-  if (auto read = readEnvironment(scene, *path, options, decoder, report); !read)
-    report.warn(file.string(), "its environment is left out: " + read.error().message());
+  auto bytes = core::readFileInside(file.parent_path(), uri, options.allowOutside, options.maxFileBytes);
+  if (!bytes) return fail(file.filename().string() + ": extras.burnish.environment", bytes.error().message());
+  if (auto made = decodeEnvironment(scene, *bytes, uri, decoder, report); !made)
+    report.warn(file.filename().string(), "its environment is left out: " + made.error().message());
   return {};
 }
 

@@ -25,6 +25,7 @@ Result<Scene> importAsset(asset::Asset asset, const Deadline& deadline, Report& 
 /// A lat-long picture of any kind as linear F32 RGB, its values finite and in 0..65504; mended ones are counted in one warning.
 Image environmentMap(const Image& image, const std::string& place, Report& report);
 
-Result<void> readEnvironment(Scene& scene, const std::filesystem::path& file, const LoadOptions& options, ImageDecoder& decoder, Report& report);
+/// Decodes a picture file into the scene's environment. `place` names it in errors and warnings.
+Result<void> decodeEnvironment(Scene& scene, std::span<const std::byte> file, const std::string& place, ImageDecoder& decoder, Report& report);
 
 }  // namespace burnish::scene

@@ -5,9 +5,12 @@
 #include <cmath>
 
 #include "scene/basis.h"
+#include "scene/validate.h"
 
 namespace burnish {
 namespace {
+
+using scene::MeshFaults;
 
 bool finite(const glm::vec2& v) { return std::isfinite(v.x) && std::isfinite(v.y); }
 bool finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
@@ -38,35 +41,31 @@ glm::dvec3 areaNormal(const Mesh& mesh, const std::uint32_t* t) {
 }
 
 /// Drops triangles with a non-finite corner or without area; puts the non-finite positions that are left over at the origin.
-void dropTriangles(Mesh& mesh, Report& report) {
-  std::size_t kept = 0, broken = 0, flat = 0;
+void dropTriangles(Mesh& mesh, MeshFaults& faults) {
+  std::size_t kept = 0;
   for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
     const std::uint32_t* t = &mesh.indices[i];
     if (!finite(mesh.positions[t[0]]) || !finite(mesh.positions[t[1]]) || !finite(mesh.positions[t[2]])) {
-      ++broken;
+      ++faults.brokenTriangles;
     } else if (areaNormal(mesh, t) == glm::dvec3(0)) {
-      ++flat;
+      ++faults.flatTriangles;
     } else {
       std::copy_n(t, 3, mesh.indices.begin() + std::ptrdiff_t(kept));
       kept += 3;
     }
   }
   mesh.indices.resize(kept);
-  if (broken) report.warn(placeOf(mesh), fmt::format("{} triangles with a non-finite position were dropped", broken));
-  if (flat) report.warn(placeOf(mesh), fmt::format("{} triangles without area were dropped", flat));
   for (glm::vec3& p : mesh.positions)
     if (!finite(p)) p = glm::vec3(0);
 }
 
 template <class V, class Good>
-void mendStream(std::vector<V>& stream, const V& substitute, const char* name, const Mesh& mesh, Report& report, Good&& good) {
-  std::size_t mended = 0;
+void mendStream(std::vector<V>& stream, const V& substitute, std::size_t& mended, Good&& good) {
   for (V& v : stream)
     if (!good(v)) {
       v = substitute;
       ++mended;
     }
-  if (mended) report.warn(placeOf(mesh), fmt::format("{} values in {} that no surface can have (not finite, negative colours) were replaced", mended, name));
 }
 
 template <class V>
@@ -93,9 +92,8 @@ void makeFlatNormals(Mesh& mesh) {
 }
 
 /// Unit length; zero and non-finite ones become the geometric normal, the area-weighted mean of the triangles around the vertex.
-void mendNormals(Mesh& mesh, Report& report) {
+void mendNormals(Mesh& mesh, MeshFaults& faults) {
   std::vector<glm::dvec3> geometric;
-  std::size_t mended = 0;
   for (std::size_t i = 0; i < mesh.normals.size(); ++i) {
     glm::vec3& n = mesh.normals[i];
     const double length = glm::length(glm::dvec3(n));
@@ -110,42 +108,72 @@ void mendNormals(Mesh& mesh, Report& report) {
     }
     const double around = glm::length(geometric[i]);
     n = around > 0 ? glm::vec3(geometric[i] / around) : glm::vec3(0, 1, 0);
-    ++mended;
+    ++faults.normals;
   }
-  if (mended) report.warn(placeOf(mesh), fmt::format("{} zero or non-finite normals were replaced by geometric ones", mended));
 }
 
-void mendTangents(Mesh& mesh, Report& report) {
-  std::size_t mended = 0;
+void mendTangents(Mesh& mesh, MeshFaults& faults) {
   for (std::size_t i = 0; i < mesh.tangents.size(); ++i) {
     glm::vec4& t = mesh.tangents[i];
     const double length = glm::length(glm::dvec3(t));
     if (!std::isfinite(length) || length < 1e-12 || !std::isfinite(t.w)) {
       t = glm::vec4(scene::perpendicular(mesh.normals[i]), 1);
-      ++mended;
+      ++faults.tangents;
     } else if (std::abs(length - 1) > 1e-6) {
       t = glm::vec4(glm::vec3(glm::dvec3(t) / length), t.w);
     }
     t.w = t.w < 0 ? -1.0f : 1.0f;
   }
-  if (mended) report.warn(placeOf(mesh), fmt::format("{} zero or non-finite tangents were replaced by ones that follow no texture", mended));
 }
 
 }  // namespace
 
-Result<Mesh> validated(Mesh mesh, Report& report) {
+namespace scene {
+
+MeshFaults& MeshFaults::operator+=(const MeshFaults& o) {
+  brokenTriangles += o.brokenTriangles;
+  flatTriangles += o.flatTriangles;
+  coordinates += o.coordinates;
+  colors += o.colors;
+  normals += o.normals;
+  tangents += o.tangents;
+  return *this;
+}
+
+void MeshFaults::report(const std::string& place, Report& report) const {
+  const std::pair<std::size_t, const char*> lines[] = {{brokenTriangles, "triangles with a non-finite position were dropped"},
+                                                       {flatTriangles, "triangles without area were dropped"},
+                                                       {coordinates, "non-finite texture coordinates became 0"},
+                                                       {colors, "non-finite or negative vertex colours became white"},
+                                                       {normals, "zero or non-finite normals were replaced by geometric ones"},
+                                                       {tangents, "zero or non-finite tangents were replaced by ones that follow no texture"}};
+  for (const auto& [count, what] : lines)
+    if (count) report.warn(place, fmt::format("{} {}", count, what));
+}
+
+Result<Mesh> validated(Mesh mesh, MeshFaults& faults) {
   if (auto sizes = checkSizes(mesh); !sizes) return fail(sizes.error());
-  dropTriangles(mesh, report);
+  dropTriangles(mesh, faults);
   const auto finiteUv = [](const glm::vec2& uv) { return finite(uv); };
-  mendStream(mesh.uv0, glm::vec2(0), "uv0", mesh, report, finiteUv);
-  mendStream(mesh.uv1, glm::vec2(0), "uv1", mesh, report, finiteUv);
-  mendStream(mesh.colors, glm::vec4(1), "colors", mesh, report, [](const glm::vec4& c) { return finite(c) && c.x >= 0 && c.y >= 0 && c.z >= 0 && c.w >= 0; });
+  mendStream(mesh.uv0, glm::vec2(0), faults.coordinates, finiteUv);
+  mendStream(mesh.uv1, glm::vec2(0), faults.coordinates, finiteUv);
+  mendStream(mesh.colors, glm::vec4(1), faults.colors, [](const glm::vec4& c) { return finite(c) && c.x >= 0 && c.y >= 0 && c.z >= 0 && c.w >= 0; });
   if (mesh.normals.empty())
     makeFlatNormals(mesh);
   else
-    mendNormals(mesh, report);
-  mendTangents(mesh, report);
+    mendNormals(mesh, faults);
+  mendTangents(mesh, faults);
   return mesh;
+}
+
+}  // namespace scene
+
+Result<Mesh> validated(Mesh mesh, Report& report) {
+  const std::string place = placeOf(mesh);
+  scene::MeshFaults faults;
+  auto good = scene::validated(std::move(mesh), faults);
+  if (good) faults.report(place, report);
+  return good;
 }
 
 }  // namespace burnish

@@ -249,12 +249,19 @@ TEST_CASE("Index of refraction and specular", "[import]") {
   m.ior = 1.5f;
   m.specular = 0.2f;
   CHECK(w.convert(m).substance == Approx(0.4f));
-  CHECK(w.warned("material \"dull\": its dielectric F0 (0.0080, 0.0080, 0.0080) is under water's 0.0196"));
+  CHECK(w.warned("material \"dull\": its dielectric F0 is under water's 0.0196, the least that a surface in air has: reflectance is off by up to 0.0116"));
   m.name = "tinted";
   m.specular = 1;
   m.specularColor = {1, 0.5f, 0.75f};
   CHECK(decodeSubstance(w.convert(m).substance, glm::vec3(0)).f0.x == Approx(0.03f).margin(1e-5));
-  CHECK(w.warned("is coloured, which a dielectric cannot be here: 0.0300 is used, off by up to 0.0100"));
+  CHECK(w.warned("is coloured, which a dielectric cannot be here: reflectance is off by up to 0.0100"));
+  m.name = "black";  // without diffuse a conductor shows any F0
+  m.baseColor = {0, 0, 0, 1};
+  const Material black = w.convert(m);
+  const DecodedSubstance shown = decodeSubstance(black.substance, black.albedo);
+  CHECK(shown.f0.y == Approx(0.02f).margin(1e-3));
+  CHECK(shown.diffuse.x < 1e-3f);
+  CHECK(!w.warned("black"));
   m.name = "metal";
   m.metallic = 1;
   const std::size_t before = w.report.warnings().size();
