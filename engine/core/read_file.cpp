@@ -1,8 +1,9 @@
 // Reading files that an untrusted asset may name (burnish/core/file.h).
-// A path is first opened with O_PATH, which has no side effect on FIFOs, devices or automounts and takes no right to read;
-// everything is then checked on that descriptor (fstat; its canonical path through /proc/self/fd) and the same inode is opened
-// for reading through /proc/self/fd. So nothing can be exchanged between the check and the use (CWE-367). openat2's
-// RESOLVE_BENEATH was not taken: it also refuses links that leave the folder and come back, and needs a newer kernel.
+// A path is first opened with O_PATH, which has no side effect on FIFOs, devices or automounts and takes no right to
+// read; everything is then checked on that descriptor (fstat; its canonical path through /proc/self/fd) and the same
+// inode is opened for reading through /proc/self/fd. So nothing can be exchanged between the check and the use
+// (CWE-367). openat2's RESOLVE_BENEATH was not taken: it also refuses links that leave the folder and come back, and
+// needs a newer kernel.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -22,12 +23,17 @@ std::string fdLink(int fd) { return fmt::format("/proc/self/fd/{}", fd); }
 
 const char* kindOf(mode_t mode) {
   switch (mode & S_IFMT) {
-    case S_IFDIR: return "a folder";
-    case S_IFIFO: return "a FIFO";
+    case S_IFDIR:
+      return "a folder";
+    case S_IFIFO:
+      return "a FIFO";
     case S_IFCHR:
-    case S_IFBLK: return "a device";
-    case S_IFSOCK: return "a socket";
-    default: return "not a regular file";
+    case S_IFBLK:
+      return "a device";
+    case S_IFSOCK:
+      return "a socket";
+    default:
+      return "not a regular file";
   }
 }
 
@@ -69,8 +75,8 @@ Result<Opened> openRegular(const std::filesystem::path& file, const std::string&
 }
 
 /// Reads what `opened` names: the size first, then exactly that many bytes (a file that grows meanwhile is cut there).
-Result<std::vector<std::byte>> readOpened(const Opened& opened, const std::filesystem::path& file, const std::string& place,
-                                          std::uint64_t maxBytes) {
+Result<std::vector<std::byte>> readOpened(const Opened& opened, const std::filesystem::path& file,
+                                          const std::string& place, std::uint64_t maxBytes) {
   UniqueFd fd(::open(fdLink(opened.fd.get()).c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
   if (!fd && errno == ENOENT) fd.reset(::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));  // no /proc
   if (!fd) return openError(place, errno);
@@ -80,7 +86,8 @@ Result<std::vector<std::byte>> readOpened(const Opened& opened, const std::files
     return fail(place, "changed while it was opened", "try again");
   const auto size = static_cast<std::uint64_t>(status.st_size);
   if (size > maxBytes)
-    return fail(place, fmt::format("is {} bytes long, the limit here is {}", size, maxBytes), "use a smaller file or raise the limit");
+    return fail(place, fmt::format("is {} bytes long, the limit here is {}", size, maxBytes),
+                "use a smaller file or raise the limit");
   std::vector<std::byte> bytes;
   try {
     bytes.resize(size);
@@ -144,8 +151,10 @@ bool climbsOut(std::string_view path) {
   while (!path.empty()) {
     const std::size_t slash = path.find('/');
     const std::string_view part = path.substr(0, slash);
-    if (part == "..") --depth;
-    else if (!part.empty() && part != ".") ++depth;
+    if (part == "..")
+      --depth;
+    else if (!part.empty() && part != ".")
+      ++depth;
     if (depth < 0) return true;
     path = slash == std::string_view::npos ? std::string_view{} : path.substr(slash + 1);
   }
@@ -156,9 +165,11 @@ bool climbsOut(std::string_view path) {
 Result<void> checkText(const std::string& place, std::string_view uri, const std::string& decoded, bool allowOutside) {
   const std::string slashed = withSlashes(decoded);
   if (uri.empty()) return fail(place, "the path is empty", "name a file");
-  if (decoded.find('\0') != std::string::npos) return fail(place, "the path holds a NUL byte", "name a file of the asset's folder");
+  if (decoded.find('\0') != std::string::npos)
+    return fail(place, "the path holds a NUL byte", "name a file of the asset's folder");
   if (hasScheme(uri) || hasScheme(decoded))
-    return fail(place, "the path has a scheme; only files are read, nothing is fetched", "store the file beside the asset and name it by a relative path");
+    return fail(place, "the path has a scheme; only files are read, nothing is fetched",
+                "store the file beside the asset and name it by a relative path");
   if (allowOutside) return {};
   if (slashed[0] == '/') return fail(place, "the path is absolute", "use a path relative to the asset's folder");
   if (climbsOut(slashed)) return fail(place, "the path leaves the asset's folder", "move the file into the folder");
@@ -166,7 +177,8 @@ Result<void> checkText(const std::string& place, std::string_view uri, const std
 }
 
 /// The canonical path behind an O_PATH descriptor; where there is no /proc, that of `path`, found by walking it.
-Result<std::filesystem::path> canonicalOf(const UniqueFd& fd, const std::filesystem::path& path, const std::string& place) {
+Result<std::filesystem::path> canonicalOf(const UniqueFd& fd, const std::filesystem::path& path,
+                                          const std::string& place) {
   char buffer[PATH_MAX];
   const ssize_t n = ::readlink(fdLink(fd.get()).c_str(), buffer, sizeof buffer);
   if (n > 0 && n < static_cast<ssize_t>(sizeof buffer) && buffer[0] == '/')
@@ -189,7 +201,8 @@ struct Resolved {
   std::filesystem::path canonical;
 };
 
-Result<Resolved> openInside(const std::filesystem::path& folder, std::string_view uri, bool allowOutside, const std::string& place) {
+Result<Resolved> openInside(const std::filesystem::path& folder, std::string_view uri, bool allowOutside,
+                            const std::string& place) {
   const std::string decoded = percentDecoded(uri);
   if (auto ok = checkText(place, uri, decoded, allowOutside); !ok) return fail(ok.error());
   const std::filesystem::path base = folder.empty() ? std::filesystem::path(".") : folder;
@@ -229,14 +242,15 @@ Result<std::vector<std::byte>> readFile(const std::filesystem::path& file, std::
   return readOpened(*opened, file, place, maxBytes);
 }
 
-Result<std::filesystem::path> resolveInside(const std::filesystem::path& folder, std::string_view uri, bool allowOutside) {
+Result<std::filesystem::path> resolveInside(const std::filesystem::path& folder, std::string_view uri,
+                                            bool allowOutside) {
   auto resolved = openInside(folder, uri, allowOutside, shown(uri));
   if (!resolved) return fail(resolved.error());
   return resolved->canonical;
 }
 
-Result<std::vector<std::byte>> readFileInside(const std::filesystem::path& folder, std::string_view uri, bool allowOutside,
-                                              std::uint64_t maxBytes) {
+Result<std::vector<std::byte>> readFileInside(const std::filesystem::path& folder, std::string_view uri,
+                                              bool allowOutside, std::uint64_t maxBytes) {
   const std::string place = shown(uri);
   auto resolved = openInside(folder, uri, allowOutside, place);
   if (!resolved) return fail(resolved.error());

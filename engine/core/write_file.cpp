@@ -1,6 +1,6 @@
 // Writing files so that they are complete or absent (burnish/core/file.h).
-// The classic order: write under another name in the same folder, fsync, rename, fsync the folder (see "Ensuring data reaches
-// disk", LWN 457667). The other name exists only between linkat and rename where the file system has O_TMPFILE.
+// The classic order: write under another name in the same folder, fsync, rename, fsync the folder (see "Ensuring data
+// reaches disk", LWN 457667). The other name exists only between linkat and rename where the file system has O_TMPFILE.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/random.h>
@@ -24,12 +24,12 @@ namespace {
 namespace fs = std::filesystem;
 
 tl::unexpected<Error> writeError(const fs::path& file, const char* step, int error) {
-  const char* remedy = error == ENOSPC || error == EDQUOT   ? "make room on the disk; an old file was left as it was"
-                       : error == EFBIG                     ? "raise the file size limit (ulimit -f)"
-                       : error == EACCES || error == EPERM  ? "check the permissions of the file and its folder"
+  const char* remedy = error == ENOSPC || error == EDQUOT    ? "make room on the disk; an old file was left as it was"
+                       : error == EFBIG                      ? "raise the file size limit (ulimit -f)"
+                       : error == EACCES || error == EPERM   ? "check the permissions of the file and its folder"
                        : error == ENOENT || error == ENOTDIR ? "create the folder first"
-                       : error == EROFS                     ? "choose a folder that can be written to"
-                                                            : "check the disk";
+                       : error == EROFS                      ? "choose a folder that can be written to"
+                                                             : "check the disk";
   return fail(file.string(), fmt::format("{} failed ({})", step, std::strerror(error)), remedy);
 }
 
@@ -47,16 +47,18 @@ bool writeAll(int fd, std::span<const std::byte> bytes) {
 /// fsync, where the file system knows it.
 bool flushed(int fd) { return ::fsync(fd) == 0 || errno == EINVAL || errno == ENOTSUP || errno == EROFS; }
 
-/// A name in the target's folder that nobody else uses; hidden, short (the target's own may be at the limit of NAME_MAX).
+/// A name in the target's folder that nobody else uses; hidden, short (the target's own may be at the limit of
+/// NAME_MAX).
 std::string temporaryName() {
   std::uint64_t random = 0;
   if (::getrandom(&random, sizeof random, GRND_NONBLOCK) != sizeof random)
-    random = static_cast<std::uint64_t>(std::chrono::steady_clock::now().time_since_epoch().count()) ^ (std::uint64_t(::getpid()) << 40);
+    random = static_cast<std::uint64_t>(std::chrono::steady_clock::now().time_since_epoch().count()) ^
+             (std::uint64_t(::getpid()) << 40);
   return fmt::format(".burnish-{:016x}.tmp", random);
 }
 
-/// N of /dev/fd/N and /proc/self/fd/N: what /dev/stdout leads to; -1 for other paths. Opening such a path again would start at
-/// offset 0 and fails for sockets; the descriptor itself is what the caller means.
+/// N of /dev/fd/N and /proc/self/fd/N: what /dev/stdout leads to; -1 for other paths. Opening such a path again would
+/// start at offset 0 and fails for sockets; the descriptor itself is what the caller means.
 int descriptorNamed(const fs::path& path) {
   const std::string& text = path.native();
   for (std::string_view prefix : {"/dev/fd/", "/proc/self/fd/"})
@@ -132,7 +134,8 @@ class PendingFile {
   bool linkName() {
     for (int tries = 0; tries < 16; ++tries) {
       std::string name = temporaryName();
-      if (::linkat(AT_FDCWD, fmt::format("/proc/self/fd/{}", fd_.get()).c_str(), folder_.get(), name.c_str(), AT_SYMLINK_FOLLOW) == 0) {
+      if (::linkat(AT_FDCWD, fmt::format("/proc/self/fd/{}", fd_.get()).c_str(), folder_.get(), name.c_str(),
+                   AT_SYMLINK_FOLLOW) == 0) {
         name_ = std::move(name);
         return true;
       }
@@ -165,8 +168,10 @@ Result<void> writeFileAtomic(const fs::path& file, std::span<const std::byte> by
   struct stat old {};
   const bool exists = ::stat(target.c_str(), &old) == 0;
   if (exists && S_ISDIR(old.st_mode)) return fail(file.string(), "is a folder", "name a file");
-  if (exists && !S_ISREG(old.st_mode)) return writeStraight(file, UniqueFd(::open(target.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC)), bytes);
-  if (exists && ::faccessat(AT_FDCWD, target.c_str(), W_OK, AT_EACCESS) != 0) return writeError(file, "opening it for writing", errno);
+  if (exists && !S_ISREG(old.st_mode))
+    return writeStraight(file, UniqueFd(::open(target.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC)), bytes);
+  if (exists && ::faccessat(AT_FDCWD, target.c_str(), W_OK, AT_EACCESS) != 0)
+    return writeError(file, "opening it for writing", errno);
   if (!fitsSizeLimit(bytes.size())) return writeError(file, "writing", EFBIG);
 
   PendingFile pending(target.has_parent_path() ? target.parent_path() : fs::path("."));

@@ -18,14 +18,16 @@ bool hasF16c() { return __builtin_cpu_supports("f16c") != 0; }
 
 __attribute__((target("avx,f16c"))) std::size_t halfToFloatF16c(const std::uint16_t* in, float* out, std::size_t n) {
   std::size_t i = 0;
-  for (; i + 8 <= n; i += 8) _mm256_storeu_ps(out + i, _mm256_cvtph_ps(_mm_loadu_si128(reinterpret_cast<const __m128i*>(in + i))));
+  for (; i + 8 <= n; i += 8)
+    _mm256_storeu_ps(out + i, _mm256_cvtph_ps(_mm_loadu_si128(reinterpret_cast<const __m128i*>(in + i))));
   return i;
 }
 
 __attribute__((target("avx,f16c"))) std::size_t floatToHalfF16c(const float* in, std::uint16_t* out, std::size_t n) {
   std::size_t i = 0;
   for (; i + 8 <= n; i += 8)
-    _mm_storeu_si128(reinterpret_cast<__m128i*>(out + i), _mm256_cvtps_ph(_mm256_loadu_ps(in + i), _MM_FROUND_TO_NEAREST_INT));
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(out + i),
+                     _mm256_cvtps_ph(_mm256_loadu_ps(in + i), _MM_FROUND_TO_NEAREST_INT));
   return i;
 }
 #else
@@ -36,8 +38,8 @@ std::size_t floatToHalfF16c(const float*, std::uint16_t*, std::size_t) { return 
 
 double decodeSrgb(double code) { return code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4); }
 
-/// Where one code ends and the next begins, and a code to start from for each of 4096 steps of the linear value: at most two
-/// steps up from there (the curve rises by 12.92 * 255 / 4096 = 0.8 codes a step at most).
+/// Where one code ends and the next begins, and a code to start from for each of 4096 steps of the linear value: at
+/// most two steps up from there (the curve rises by 12.92 * 255 / 4096 = 0.8 codes a step at most).
 struct SrgbEncoder {
   std::array<float, 257> from{};
   std::array<std::uint8_t, 4097> start{};
@@ -75,7 +77,8 @@ void floatToHalf(std::span<const float> in, std::span<std::uint16_t> out) {
 const std::array<float, 256>& srgbToLinearTable() {
   static const std::array<float, 256> kTable = [] {
     std::array<float, 256> table{};
-    for (std::size_t code = 0; code < 256; ++code) table[code] = static_cast<float>(decodeSrgb(static_cast<double>(code) / 255));
+    for (std::size_t code = 0; code < 256; ++code)
+      table[code] = static_cast<float>(decodeSrgb(static_cast<double>(code) / 255));
     return table;
   }();
   return kTable;
@@ -96,8 +99,12 @@ Image toF32(const Image& image, bool srgb) {
   float* to = out.f32();
   const auto* halves = reinterpret_cast<const std::uint16_t*>(image.data.data());
   switch (image.type) {
-    case PixelType::F32: out.data = image.data; break;
-    case PixelType::F16: halfToFloat({halves, n}, {to, n}); break;
+    case PixelType::F32:
+      out.data = image.data;
+      break;
+    case PixelType::F16:
+      halfToFloat({halves, n}, {to, n});
+      break;
     case PixelType::U16:
       for (std::size_t i = 0; i < n; ++i) to[i] = static_cast<float>(halves[i]) / 65535.0f;
       break;
@@ -133,8 +140,10 @@ Image extractChannels(const Image& image, std::initializer_list<int> channels) {
   const std::size_t from = size * std::size_t(image.channels), to = size * std::size_t(out.channels);
   std::size_t at = 0;
   for (int channel : channels) {
-    const std::byte* in = image.data.data() + size * static_cast<std::size_t>(std::clamp(channel, 0, image.channels - 1));
-    for (std::size_t i = 0; i < image.pixelCount(); ++i) std::memcpy(out.data.data() + i * to + at, in + i * from, size);
+    const std::byte* in =
+        image.data.data() + size * static_cast<std::size_t>(std::clamp(channel, 0, image.channels - 1));
+    for (std::size_t i = 0; i < image.pixelCount(); ++i)
+      std::memcpy(out.data.data() + i * to + at, in + i * from, size);
     at += size;
   }
   return out;
@@ -151,8 +160,10 @@ Mended makeFinite(Image& image, float limit) {
     if (!mended.any()) mended.first = i / static_cast<std::size_t>(image.channels);
     std::isfinite(v) ? ++mended.clamped : ++mended.nonFinite;
     const float fixed = clampFinite(v, limit);
-    if (image.type == PixelType::F32) image.f32()[i] = fixed;
-    else halves[i] = imath_float_to_half(fixed);
+    if (image.type == PixelType::F32)
+      image.f32()[i] = fixed;
+    else
+      halves[i] = imath_float_to_half(fixed);
   }
   return mended;
 }

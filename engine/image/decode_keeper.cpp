@@ -82,7 +82,8 @@ WindowMap::~WindowMap() {
 
 Receipt receiveMessage(int socket, void* message, std::size_t size, Deadline deadline) {
   for (;;) {
-    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - std::chrono::steady_clock::now()).count();
+    const auto left =
+        std::chrono::duration_cast<std::chrono::milliseconds>(deadline - std::chrono::steady_clock::now()).count();
     pollfd waiting{socket, POLLIN, 0};
     const int n = ::poll(&waiting, 1, static_cast<int>(std::clamp<long long>(left + 1, 0, 1 << 30)));
     if (n < 0 && errno == EINTR) continue;
@@ -106,14 +107,17 @@ bool sendMessage(int socket, const void* message, std::size_t size) {
 Result<void> DecodeKeeper::start(const std::filesystem::path& helper) {
   if (socket_) return {};
   core::UniqueFd theirs;
-  if (!socketPair(socket_, theirs)) return fail("decoder pool", fmt::format("no socket for the helper ({})", std::strerror(errno)), "close some files");
-  // Not 0 itself (a host without standard input): posix_spawn's dup2 onto the same number is a special case in libc versions.
+  if (!socketPair(socket_, theirs))
+    return fail("decoder pool", fmt::format("no socket for the helper ({})", std::strerror(errno)), "close some files");
+  // Not 0 itself (a host without standard input): posix_spawn's dup2 onto the same number is a special case in libc
+  // versions.
   if (theirs.get() == kKeeperSocket) theirs.reset(::fcntl(theirs.get(), F_DUPFD_CLOEXEC, 3));
   ready_ = false;
   if (const int error = spawn(helper, theirs.get(), pid_); error != 0) {
     pid_ = -1;
     socket_.reset();
-    return fail(helper.string(), fmt::format("cannot be started ({})", std::strerror(error)), "check that it is the burnish-decode program");
+    return fail(helper.string(), fmt::format("cannot be started ({})", std::strerror(error)),
+                "check that it is the burnish-decode program");
   }
   return {};
 }
@@ -121,7 +125,8 @@ Result<void> DecodeKeeper::start(const std::filesystem::path& helper) {
 bool DecodeKeeper::awaitReady() {
   if (ready_) return true;
   KeeperAnswer answer;
-  ready_ = receiveMessage(socket_.get(), &answer, sizeof answer, std::chrono::steady_clock::now() + kStartTime) == Receipt::Message &&
+  ready_ = receiveMessage(socket_.get(), &answer, sizeof answer, std::chrono::steady_clock::now() + kStartTime) ==
+               Receipt::Message &&
            answer.command == KeeperCommand::Ready && answer.status == kDecodeLayout;
   return ready_;
 }
@@ -142,7 +147,8 @@ bool DecodeKeeper::ask(const KeeperOrder& order, const int* descriptors, KeeperA
   do n = ::sendmsg(socket_.get(), &message, MSG_NOSIGNAL);
   while (n < 0 && errno == EINTR);
   return n == static_cast<ssize_t>(sizeof copy) &&
-         receiveMessage(socket_.get(), &answer, sizeof answer, std::chrono::steady_clock::now() + kAnswerTime) == Receipt::Message &&
+         receiveMessage(socket_.get(), &answer, sizeof answer, std::chrono::steady_clock::now() + kAnswerTime) ==
+             Receipt::Message &&
          answer.command == order.command;
 }
 
@@ -150,23 +156,27 @@ Result<Worker> DecodeKeeper::fork(const std::filesystem::path& helper, std::uint
   Worker worker;
   core::UniqueFd theirs;
   worker.memory.reset(::memfd_create("burnish-decode", MFD_CLOEXEC | MFD_ALLOW_SEALING));
-  const bool sized = worker.memory && ::ftruncate(worker.memory.get(), kFileOffset) == 0 && ::fcntl(worker.memory.get(), F_ADD_SEALS, F_SEAL_SHRINK) == 0;
+  const bool sized = worker.memory && ::ftruncate(worker.memory.get(), kFileOffset) == 0 &&
+                     ::fcntl(worker.memory.get(), F_ADD_SEALS, F_SEAL_SHRINK) == 0;
   if (sized) worker.windows = WindowMap(worker.memory.get());
   if (!worker.windows || !socketPair(worker.socket, theirs))
-    return fail("decoder pool", fmt::format("no socket or shared memory for a helper ({})", std::strerror(errno)), "close some files");
+    return fail("decoder pool", fmt::format("no socket or shared memory for a helper ({})", std::strerror(errno)),
+                "close some files");
   const int descriptors[2] = {theirs.get(), worker.memory.get()};
   for (int tries = 0; tries < 2; ++tries) {
     if (auto started = start(helper); !started) return fail(started.error());
     KeeperAnswer answer;
     if (awaitReady() && ask({kDecodeMagic, KeeperCommand::Fork, 0, 0, memoryBytes}, descriptors, answer)) {
       if (answer.pid <= 0)
-        return fail("decoder pool", fmt::format("the helper cannot fork ({})", std::strerror(answer.status)), "end some processes or free memory");
+        return fail("decoder pool", fmt::format("the helper cannot fork ({})", std::strerror(answer.status)),
+                    "end some processes or free memory");
       worker.pid = answer.pid;
       return worker;
     }
     stop();  // it was killed, or is stuck: once more with a new one
   }
-  return fail("decoder pool", startFailure(helper), "install the one that came with this library; run it by hand to see whether it misses libraries");
+  return fail("decoder pool", startFailure(helper),
+              "install the one that came with this library; run it by hand to see whether it misses libraries");
 }
 
 int DecodeKeeper::end(Worker& worker) {
@@ -190,7 +200,8 @@ void DecodeKeeper::stop() {
   int status = 0;
   if (::waitpid(pid, &status, WNOHANG) != 0) return;
   ::kill(pid, SIGKILL);
-  while (::waitpid(pid, &status, 0) < 0 && errno == EINTR) {}
+  while (::waitpid(pid, &status, 0) < 0 && errno == EINTR) {
+  }
 }
 
 }  // namespace burnish::image

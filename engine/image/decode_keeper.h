@@ -1,4 +1,5 @@
-// The pool's side of the helper program: starting it, and having it fork and end workers (engine/image/decode_protocol.h).
+// The pool's side of the helper program: starting it, and having it fork and end workers
+// (engine/image/decode_protocol.h).
 #pragma once
 #include <burnish/result.h>
 #include <sys/types.h>
@@ -15,7 +16,8 @@ namespace burnish::image {
 using Deadline = std::chrono::steady_clock::time_point;
 
 enum class Receipt { Message, Closed, TimedOut };
-/// Waits until the deadline for one whole message of `size` bytes that starts with kDecodeMagic; anything else counts as Closed.
+/// Waits until the deadline for one whole message of `size` bytes that starts with kDecodeMagic; anything else counts
+/// as Closed.
 Receipt receiveMessage(int socket, void* message, std::size_t size, Deadline deadline);
 /// False when the other end is gone.
 bool sendMessage(int socket, const void* message, std::size_t size);
@@ -33,7 +35,9 @@ class WindowMap {
   WindowMap(const WindowMap&) = delete;
   WindowMap& operator=(const WindowMap&) = delete;
   ~WindowMap();
-  [[nodiscard]] const std::byte* window(std::size_t index) const { return static_cast<const std::byte*>(at_) + index * kWindowBytes; }
+  [[nodiscard]] const std::byte* window(std::size_t index) const {
+    return static_cast<const std::byte*>(at_) + index * kWindowBytes;
+  }
   [[nodiscard]] explicit operator bool() const { return at_ != nullptr; }
 
  private:
@@ -57,13 +61,14 @@ class DecodeKeeper {
   DecodeKeeper& operator=(const DecodeKeeper&) = delete;
   ~DecodeKeeper() { stop(); }
 
-  /// Starts the program unless it runs; returns at once, loading goes on in the background. Not inherited: any descriptor, any
-  /// environment variable but LD_LIBRARY_PATH, any signal setting.
+  /// Starts the program unless it runs; returns at once, loading goes on in the background. Not inherited: any
+  /// descriptor, any environment variable but LD_LIBRARY_PATH, any signal setting.
   Result<void> start(const std::filesystem::path& helper);
-  /// start(), waiting for it if need be (up to a minute on a machine that starts cold), then a new worker. Starts the program
-  /// anew, once, when it turns out to be gone.
+  /// start(), waiting for it if need be (up to a minute on a machine that starts cold), then a new worker. Starts the
+  /// program anew, once, when it turns out to be gone.
   Result<Worker> fork(const std::filesystem::path& helper, std::uint64_t memoryBytes);
-  /// Ends a worker for good. Returns its wait status (SIGKILL when it was still running), or -1 when that is not known any more.
+  /// Ends a worker for good. Returns its wait status (SIGKILL when it was still running), or -1 when that is not known
+  /// any more.
   int end(Worker& worker);
   void stop();
 

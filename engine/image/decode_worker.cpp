@@ -32,7 +32,8 @@ bool storeFile(int memory, std::span<const std::byte> file) {
 void trimMemory(int memory) {
   struct stat status {};
   if (::fstat(memory, &status) == 0 && status.st_blocks * 512 > kKeptBytes)
-    (void)::fallocate(memory, FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE, kKeptBytes, std::max<off_t>(status.st_size - kKeptBytes, 1));
+    (void)::fallocate(memory, FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE, kKeptBytes,
+                      std::max<off_t>(status.st_size - kKeptBytes, 1));
 }
 
 Deadline after(double seconds) {
@@ -41,19 +42,22 @@ Deadline after(double seconds) {
 }
 
 tl::unexpected<Error> noMemory(std::string_view name, std::uint64_t bytes) {
-  return fail(std::string(name), fmt::format("no memory for its {} bytes", bytes), "free some memory, or make the picture smaller");
+  return fail(std::string(name), fmt::format("no memory for its {} bytes", bytes),
+              "free some memory, or make the picture smaller");
 }
 
 /// Reads a worker's answers to one request.
 class Reader {
  public:
-  Reader(Worker& worker, std::string_view name, Deadline deadline) : worker_(worker), name_(name), deadline_(deadline) {}
+  Reader(Worker& worker, std::string_view name, Deadline deadline)
+      : worker_(worker), name_(name), deadline_(deadline) {}
 
   Conversation read(const PictureHeader& header, const DecodeLimits& limits) {
     if (auto stopped = next()) return std::move(*stopped);
     Image picture{answer_.width, answer_.height, answer_.channels, static_cast<PixelType>(answer_.type), {}};
-    const bool sane = answer_.kind == AnswerKind::Header && picture.width == header.width && picture.height == header.height && picture.channels >= 1 &&
-                      picture.channels <= 4 && picture.type == header.type;
+    const bool sane = answer_.kind == AnswerKind::Header && picture.width == header.width &&
+                      picture.height == header.height && picture.channels >= 1 && picture.channels <= 4 &&
+                      picture.type == header.type;
     if (!sane || picture.byteSize() > std::min(header.decodedBytes(), limits.maxBytes)) return senseless();
     try {
       picture.data.reserve(picture.byteSize());
@@ -68,7 +72,9 @@ class Reader {
     const std::size_t total = picture.byteSize();
     for (std::size_t turn = 0; picture.data.size() < total; turn = (turn + 1) % kWindows) {
       if (auto stopped = next()) return std::move(*stopped);
-      if (answer_.kind != AnswerKind::Pixels || answer_.bytes == 0 || answer_.bytes > std::min(kWindowBytes, total - picture.data.size())) return senseless();
+      if (answer_.kind != AnswerKind::Pixels || answer_.bytes == 0 ||
+          answer_.bytes > std::min(kWindowBytes, total - picture.data.size()))
+        return senseless();
       const std::byte* window = worker_.windows.window(turn);
       picture.data.insert(picture.data.end(), window, window + answer_.bytes);
       const WindowFree message;
@@ -87,7 +93,8 @@ class Reader {
     return Conversation{Outcome::Answered, fail(std::string(name_), answer_.what, answer_.remedy)};
   }
   [[nodiscard]] Conversation senseless() const {
-    return {Outcome::Unusable, fail(std::string(name_), "is damaged: the decoder's answer makes no sense", "export the picture again")};
+    return {Outcome::Unusable,
+            fail(std::string(name_), "is damaged: the decoder's answer makes no sense", "export the picture again")};
   }
 
   Worker& worker_;
@@ -98,8 +105,8 @@ class Reader {
 
 }  // namespace
 
-Conversation decodeWith(Worker& worker, std::span<const std::byte> file, std::string_view name, const PictureHeader& header,
-                        const DecodeLimits& limits) {
+Conversation decodeWith(Worker& worker, std::span<const std::byte> file, std::string_view name,
+                        const PictureHeader& header, const DecodeLimits& limits) {
   if (!storeFile(worker.memory.get(), file)) return {Outcome::Unusable, noMemory(name, file.size())};
   DecodeRequest request;
   request.maxSide = limits.maxSide;

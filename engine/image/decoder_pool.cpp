@@ -1,4 +1,5 @@
-// ImageDecoder in helper processes: who waits for which worker, time limits, and one clear error for whatever a worker does.
+// ImageDecoder in helper processes: who waits for which worker, time limits, and one clear error for whatever a worker
+// does.
 #include <fmt/format.h>
 #include <sys/wait.h>
 
@@ -23,10 +24,13 @@ Error deathOf(int status, std::string_view name, double seconds) {
   if (status > 0 && WIFSIGNALED(status)) {
     const int signal = WTERMSIG(status);
     if (signal == SIGXCPU)
-      return {std::string(name), fmt::format("was not decoded within {:g} s", seconds), "make the picture smaller, or export it again if it is damaged"};
+      return {std::string(name), fmt::format("was not decoded within {:g} s", seconds),
+              "make the picture smaller, or export it again if it is damaged"};
     if (signal == SIGKILL)
-      return {std::string(name), "decoding was ended from outside (signal 9), perhaps for want of memory", "try again, or make the picture smaller"};
-    return {std::string(name), fmt::format("is damaged: the decoder crashed on it (signal {}, {})", signal, ::strsignal(signal)),
+      return {std::string(name), "decoding was ended from outside (signal 9), perhaps for want of memory",
+              "try again, or make the picture smaller"};
+    return {std::string(name),
+            fmt::format("is damaged: the decoder crashed on it (signal {}, {})", signal, ::strsignal(signal)),
             "export the picture again"};
   }
   return {std::string(name), "is damaged: the decoder ended on it", "export the picture again"};
@@ -34,7 +38,8 @@ Error deathOf(int status, std::string_view name, double seconds) {
 
 class DecoderPool final : public ImageDecoder {
  public:
-  explicit DecoderPool(DecoderPoolOptions options) : options_(std::move(options)), slots_(static_cast<std::size_t>(std::max(options_.processes, 1))) {
+  explicit DecoderPool(DecoderPoolOptions options)
+      : options_(std::move(options)), slots_(static_cast<std::size_t>(std::max(options_.processes, 1))) {
     if (options_.startNow) startInBackground();
   }
   ~DecoderPool() override {
@@ -95,7 +100,8 @@ class DecoderPool final : public ImageDecoder {
   }
 
   void startInBackground() {
-    if (auto helper = findDecodeHelper(options_.helper)) (void)keeper_.start(*helper);  // a failure shows again, and is told, at decode
+    if (auto helper = findDecodeHelper(options_.helper))
+      (void)keeper_.start(*helper);  // a failure shows again, and is told, at decode
   }
 
   Result<void> provideWorker(Slot& slot, std::string_view name) {
@@ -126,6 +132,8 @@ class DecoderPool final : public ImageDecoder {
 
 }  // namespace
 
-std::unique_ptr<ImageDecoder> makeDecoderPool(DecoderPoolOptions options) { return std::make_unique<DecoderPool>(std::move(options)); }
+std::unique_ptr<ImageDecoder> makeDecoderPool(DecoderPoolOptions options) {
+  return std::make_unique<DecoderPool>(std::move(options));
+}
 
 }  // namespace burnish

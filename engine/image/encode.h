@@ -6,7 +6,8 @@ namespace burnish::image {
 
 /// `place` names the picture in errors. U8 only. The same image gives the same bytes.
 Result<std::vector<std::byte>> encodePng(const Image& image, std::string_view place);
-/// F16 and F32 only; ZIP compression (lossless). Channels are named Y, YA, RGB, RGBA. The same image gives the same bytes.
+/// F16 and F32 only; ZIP compression (lossless). Channels are named Y, YA, RGB, RGBA. The same image gives the same
+/// bytes.
 Result<std::vector<std::byte>> encodeExr(const Image& image, std::string_view place);
 
 }  // namespace burnish::image

@@ -47,7 +47,8 @@ std::vector<std::byte> encode(const Image& image) {
   for (int c = 0; c < image.channels; ++c) {
     const char* name = kNames[image.channels - 1][c];
     header.channels().insert(name, Imf::Channel(type));
-    auto* first = reinterpret_cast<char*>(const_cast<std::byte*>(image.data.data())) + sample * static_cast<std::size_t>(c);  // only read
+    auto* first = reinterpret_cast<char*>(const_cast<std::byte*>(image.data.data())) +
+                  sample * static_cast<std::size_t>(c);  // only read
     frame.insert(name, Imf::Slice(type, first, pixel, pixel * static_cast<std::size_t>(image.width)));
   }
   MemoryStream stream;
@@ -63,14 +64,18 @@ std::vector<std::byte> encode(const Image& image) {
 
 Result<std::vector<std::byte>> encodeExr(const Image& image, std::string_view place) {
   if ((image.type != PixelType::F16 && image.type != PixelType::F32) || image.channels < 1 || image.channels > 4)
-    return fail(std::string(place), "only half and float pictures of 1 to 4 channels can be written as OpenEXR", "convert it first, or write PNG");
+    return fail(std::string(place), "only half and float pictures of 1 to 4 channels can be written as OpenEXR",
+                "convert it first, or write PNG");
   if (image.width <= 0 || image.height <= 0 || image.data.size() != image.byteSize())
-    return fail(std::string(place), fmt::format("a picture of {} x {} pixels with {} bytes cannot be written", image.width, image.height, image.data.size()),
+    return fail(std::string(place),
+                fmt::format("a picture of {} x {} pixels with {} bytes cannot be written", image.width, image.height,
+                            image.data.size()),
                 "draw something first");
   try {
     return encode(image);
   } catch (const std::exception& e) {
-    return fail(std::string(place), fmt::format("cannot be written as OpenEXR ({})", e.what()), "make the picture smaller");
+    return fail(std::string(place), fmt::format("cannot be written as OpenEXR ({})", e.what()),
+                "make the picture smaller");
   }
 }
 

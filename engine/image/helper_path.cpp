@@ -35,7 +35,8 @@ std::vector<fs::path> candidates() {
     found.push_back(self.parent_path().parent_path() / "libexec/burnish" / kName);
   }
   if (const fs::path library = libraryFolder(); !library.empty())
-    for (const fs::path& root : {library.parent_path(), library.parent_path().parent_path()}) {  // lib, or lib/x86_64-linux-gnu
+    for (const fs::path& root :
+         {library.parent_path(), library.parent_path().parent_path()}) {  // lib, or lib/x86_64-linux-gnu
       found.push_back(root / "bin" / kName);
       found.push_back(root / "libexec/burnish" / kName);
     }

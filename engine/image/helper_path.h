@@ -6,9 +6,10 @@
 
 namespace burnish::image {
 
-/// `asked` if it names one; else the first that exists: beside the running program, ../libexec/burnish/ from there, the bin and
-/// libexec folders of the tree that holds this library, the folder that the build would install to. No environment variable
-/// is read: what runs is decided by whoever installed the program. The error names the places that were looked at.
+/// `asked` if it names one; else the first that exists: beside the running program, ../libexec/burnish/ from there, the
+/// bin and libexec folders of the tree that holds this library, the folder that the build would install to. No
+/// environment variable is read: what runs is decided by whoever installed the program. The error names the places that
+/// were looked at.
 Result<std::filesystem::path> findDecodeHelper(const std::filesystem::path& asked);
 
 }  // namespace burnish::image

@@ -1,5 +1,6 @@
-// Headers of PNG (ISO/IEC 15948, 11.2.2), JPEG (ITU-T T.81, B.2.2), Radiance HDR (Ward, "Real Pixels", Graphics Gems II; the
-// Radiance reference, filefmts.pdf) and OpenEXR ("OpenEXR File Layout"). Every read goes through Bytes, which checks bounds.
+// Headers of PNG (ISO/IEC 15948, 11.2.2), JPEG (ITU-T T.81, B.2.2), Radiance HDR (Ward, "Real Pixels", Graphics Gems
+// II; the Radiance reference, filefmts.pdf) and OpenEXR ("OpenEXR File Layout"). Every read goes through Bytes, which
+// checks bounds.
 #include "image/picture_header.h"
 
 #include <fmt/format.h>
@@ -52,10 +53,12 @@ class Bytes {
 };
 
 tl::unexpected<Error> damaged(std::string_view name, PictureFormat format, std::string_view what) {
-  return fail(std::string(name), fmt::format("is a damaged {} file: {}", formatName(format), what), "export the picture again");
+  return fail(std::string(name), fmt::format("is a damaged {} file: {}", formatName(format), what),
+              "export the picture again");
 }
 tl::unexpected<Error> unsupported(std::string_view name, PictureFormat format, std::string_view what) {
-  return fail(std::string(name), fmt::format("is a {} file of a kind that is not supported: {}", formatName(format), what),
+  return fail(std::string(name),
+              fmt::format("is a {} file of a kind that is not supported: {}", formatName(format), what),
               "convert the picture");
 }
 
@@ -64,21 +67,27 @@ bool plausibleSide(std::uint64_t side) { return side > 0 && side <= 0x7fffffff; 
 Result<PictureHeader> readPng(std::span<const std::byte> file, std::string_view name) {
   Bytes in(file);
   in.skip(8);
-  const std::uint32_t length = in.be32(), type = in.be32(), width = in.be32(), height = in.be32(), bits = in.u8(), color = in.u8();
+  const std::uint32_t length = in.be32(), type = in.be32(), width = in.be32(), height = in.be32(), bits = in.u8(),
+                      color = in.u8();
   const std::uint32_t compression = in.u8(), filter = in.u8(), interlace = in.u8();
-  if (in.bad() || length != 13 || type != 0x49484452) return damaged(name, PictureFormat::Png, "it does not start with IHDR");
+  if (in.bad() || length != 13 || type != 0x49484452)
+    return damaged(name, PictureFormat::Png, "it does not start with IHDR");
   if (!plausibleSide(width) || !plausibleSide(height))
     return damaged(name, PictureFormat::Png, fmt::format("its size is {} x {}", width, height));
   const bool bitsFit = color == 0   ? bits == 1 || bits == 2 || bits == 4 || bits == 8 || bits == 16
                        : color == 3 ? bits == 1 || bits == 2 || bits == 4 || bits == 8
                                     : (color == 2 || color == 4 || color == 6) && (bits == 8 || bits == 16);
   if (!bitsFit || compression != 0 || filter != 0 || interlace > 1)
-    return damaged(name, PictureFormat::Png, fmt::format("colour type {} with {} bits, methods {} {} {}", color, bits, compression, filter, interlace));
+    return damaged(
+        name, PictureFormat::Png,
+        fmt::format("colour type {} with {} bits, methods {} {} {}", color, bits, compression, filter, interlace));
   const int stored = color == 2 ? 3 : color == 4 ? 2 : color == 6 ? 4 : 1;
-  // Deflate never does better than 1032 to 1 (RFC 1951: 258 bytes from 2 bits), so a short file cannot be a large picture.
+  // Deflate never does better than 1032 to 1 (RFC 1951: 258 bytes from 2 bits), so a short file cannot be a large
+  // picture.
   const double rowBytes = static_cast<double>(width) * stored * bits / 8;
   if (rowBytes * height / 1032 > static_cast<double>(file.size()) + 1024)
-    return damaged(name, PictureFormat::Png, fmt::format("{} bytes cannot hold {} x {} pixels", file.size(), width, height));
+    return damaged(name, PictureFormat::Png,
+                   fmt::format("{} bytes cannot hold {} x {} pixels", file.size(), width, height));
   const int channels = color == 3 ? 4 : color == 0 || color == 2 ? stored + 1 : stored;  // + 1: a tRNS chunk may follow
   const int w = static_cast<int>(width), h = static_cast<int>(height);
   return PictureHeader{PictureFormat::Png, w, h, w, h, channels, bits == 16 ? PixelType::U16 : PixelType::U8};
@@ -88,7 +97,8 @@ Result<PictureHeader> readJpeg(std::span<const std::byte> file, std::string_view
   Bytes in(file);
   in.skip(2);
   while (!in.bad()) {
-    while (!in.bad() && in.u8() != 0xff) {}  // garbage between segments is tolerated, as libjpeg does
+    while (!in.bad() && in.u8() != 0xff) {
+    }  // garbage between segments is tolerated, as libjpeg does
     std::uint32_t marker = 0xff;
     while (!in.bad() && marker == 0xff) marker = in.u8();  // fill bytes
     if (marker == 0 || marker == 0x01 || (marker >= 0xd0 && marker <= 0xd8)) continue;
@@ -105,7 +115,8 @@ Result<PictureHeader> readJpeg(std::span<const std::byte> file, std::string_view
     if ((marker > 0xc2 && marker != 0xc9 && marker != 0xca) || bits != 8)
       return unsupported(name, PictureFormat::Jpeg, fmt::format("frame type {:#04x} with {} bits", marker, bits));
     if (width == 0 || height == 0 || (components != 1 && components != 3 && components != 4))
-      return damaged(name, PictureFormat::Jpeg, fmt::format("its size is {} x {} with {} components", width, height, components));
+      return damaged(name, PictureFormat::Jpeg,
+                     fmt::format("its size is {} x {} with {} components", width, height, components));
     const int w = static_cast<int>(width), h = static_cast<int>(height);
     return PictureHeader{PictureFormat::Jpeg, w, h, w, h, components == 1 ? 1 : 3, PixelType::U8};  // CMYK becomes RGB
   }
@@ -129,7 +140,8 @@ Result<PictureHeader> readHdr(std::span<const std::byte> file, std::string_view 
   std::string_view size = in.textUntil('\n', 256);
   char first = 0, second = 0;
   std::uint64_t rows = 0, columns = 0;
-  if (in.bad() || !axis(size, first, rows) || size.empty() || size[0] != ' ') return damaged(name, PictureFormat::Hdr, "it has no line with its size");
+  if (in.bad() || !axis(size, first, rows) || size.empty() || size[0] != ' ')
+    return damaged(name, PictureFormat::Hdr, "it has no line with its size");
   size.remove_prefix(1);
   if (!axis(size, second, columns)) return damaged(name, PictureFormat::Hdr, "it has no line with its size");
   if (first == 'X' && second == 'Y') return unsupported(name, PictureFormat::Hdr, "stored by columns");
@@ -179,17 +191,26 @@ Result<PictureHeader> readExr(std::span<const std::byte> file, std::string_view 
     const std::int32_t size = in.le32();
     if (size < 0) return damaged(name, PictureFormat::Exr, "an attribute of negative length");
     const std::size_t end = in.position() + static_cast<std::size_t>(size);
-    if (attribute == "dataWindow" && size == 16) data = window(in);
-    else if (attribute == "displayWindow" && size == 16) display = window(in);
-    else if (attribute == "channels") channels = countChannels(in, end);
+    if (attribute == "dataWindow" && size == 16)
+      data = window(in);
+    else if (attribute == "displayWindow" && size == 16)
+      display = window(in);
+    else if (attribute == "channels")
+      channels = countChannels(in, end);
     if (end < in.position()) return damaged(name, PictureFormat::Exr, "an attribute longer than it says");
     in.skip(end - in.position());
   }
   if (in.bad()) return damaged(name, PictureFormat::Exr, "its header is cut off");
-  if (!data.plausible() || !display.plausible()) return damaged(name, PictureFormat::Exr, "its data or display window is missing or empty");
+  if (!data.plausible() || !display.plausible())
+    return damaged(name, PictureFormat::Exr, "its data or display window is missing or empty");
   if (channels < 1) return damaged(name, PictureFormat::Exr, "it has no channels");
-  return PictureHeader{PictureFormat::Exr, static_cast<int>(display.width()), static_cast<int>(display.height()), static_cast<int>(data.width()),
-                       static_cast<int>(data.height()), std::min(channels, 4), PixelType::F32};
+  return PictureHeader{PictureFormat::Exr,
+                       static_cast<int>(display.width()),
+                       static_cast<int>(display.height()),
+                       static_cast<int>(data.width()),
+                       static_cast<int>(data.height()),
+                       std::min(channels, 4),
+                       PixelType::F32};
 }
 
 }  // namespace
@@ -220,10 +241,14 @@ Result<PictureHeader> readPictureHeader(std::span<const std::byte> file, std::st
     return fail(std::string(name), file.empty() ? "is empty" : "is not a PNG, JPEG, Radiance HDR or OpenEXR file",
                 "convert the picture to one of these formats");
   switch (*format) {
-    case PictureFormat::Png: return readPng(file, name);
-    case PictureFormat::Jpeg: return readJpeg(file, name);
-    case PictureFormat::Hdr: return readHdr(file, name);
-    case PictureFormat::Exr: break;
+    case PictureFormat::Png:
+      return readPng(file, name);
+    case PictureFormat::Jpeg:
+      return readJpeg(file, name);
+    case PictureFormat::Hdr:
+      return readHdr(file, name);
+    case PictureFormat::Exr:
+      break;
   }
   return readExr(file, name);
 }
@@ -238,7 +263,8 @@ Result<void> checkPictureLimits(const PictureHeader& header, const DecodeLimits&
   PictureHeader stored = header;
   stored.width = header.dataWidth, stored.height = header.dataHeight;
   if (const std::uint64_t bytes = std::max(header.decodedBytes(), stored.decodedBytes()); bytes > limits.maxBytes)
-    return fail(std::string(name), fmt::format("takes {} bytes decoded, the limit is {}", bytes, limits.maxBytes), "make the picture smaller");
+    return fail(std::string(name), fmt::format("takes {} bytes decoded, the limit is {}", bytes, limits.maxBytes),
+                "make the picture smaller");
   return {};
 }
 

@@ -24,7 +24,8 @@ std::optional<PictureFormat> pictureFormat(std::span<const std::byte> file);
 std::string_view formatName(PictureFormat format);
 
 /// Parses the header of one of the four formats. Errors: unknown format, damaged or unsupported header, a size that the
-/// file's length cannot hold. Sizes in the answer are positive and fit 31 bits; they are not yet checked against limits.
+/// file's length cannot hold. Sizes in the answer are positive and fit 31 bits; they are not yet checked against
+/// limits.
 Result<PictureHeader> readPictureHeader(std::span<const std::byte> file, std::string_view name);
 
 /// Whether a picture of this size may be decoded at all.

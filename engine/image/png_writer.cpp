@@ -11,9 +11,12 @@ namespace image {
 
 Result<std::vector<std::byte>> encodePng(const Image& image, std::string_view place) {
   if (image.type != PixelType::U8 || image.channels < 1 || image.channels > 4)
-    return fail(std::string(place), "only 8-bit pictures of 1 to 4 channels can be written as PNG", "convert it first, or write EXR");
+    return fail(std::string(place), "only 8-bit pictures of 1 to 4 channels can be written as PNG",
+                "convert it first, or write EXR");
   if (image.width <= 0 || image.height <= 0 || image.data.size() != image.byteSize())
-    return fail(std::string(place), fmt::format("a picture of {} x {} pixels with {} bytes cannot be written", image.width, image.height, image.data.size()),
+    return fail(std::string(place),
+                fmt::format("a picture of {} x {} pixels with {} bytes cannot be written", image.width, image.height,
+                            image.data.size()),
                 "draw something first");
   constexpr png_uint_32 kFormats[] = {PNG_FORMAT_GRAY, PNG_FORMAT_GA, PNG_FORMAT_RGB, PNG_FORMAT_RGBA};
   // libpng's simplified interface: it keeps its longjmp to itself and marks the picture as sRGB.
@@ -28,7 +31,8 @@ Result<std::vector<std::byte>> encodePng(const Image& image, std::string_view pl
   try {
     bytes.resize(size);
   } catch (const std::exception&) {
-    return fail(std::string(place), fmt::format("no memory to write {} x {} pixels", image.width, image.height), "make the picture smaller");
+    return fail(std::string(place), fmt::format("no memory to write {} x {} pixels", image.width, image.height),
+                "make the picture smaller");
   }
   const bool written = png_image_write_to_memory(&png, bytes.data(), &size, 0, image.data.data(), 0, nullptr) != 0;
   const std::string what = png.message;

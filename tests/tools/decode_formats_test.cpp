@@ -33,11 +33,13 @@ Image decoded(const Bytes& file, std::string_view name = "picture") {
 }
 
 unsigned sample(const Image& image, int x, int y, int c) {
-  const std::size_t at = (std::size_t(y) * std::size_t(image.width) + std::size_t(x)) * std::size_t(image.channels) + std::size_t(c);
+  const std::size_t at =
+      (std::size_t(y) * std::size_t(image.width) + std::size_t(x)) * std::size_t(image.channels) + std::size_t(c);
   return image.type == PixelType::U8 ? image.u8()[at] : reinterpret_cast<const std::uint16_t*>(image.data.data())[at];
 }
 float floatAt(const Image& image, int x, int y, int c) {
-  return image.f32()[(std::size_t(y) * std::size_t(image.width) + std::size_t(x)) * std::size_t(image.channels) + std::size_t(c)];
+  return image.f32()[(std::size_t(y) * std::size_t(image.width) + std::size_t(x)) * std::size_t(image.channels) +
+                     std::size_t(c)];
 }
 
 unsigned pattern(int x, int y, int c) { return static_cast<unsigned>(x * 37 + y * 91 + c * 53); }
@@ -48,11 +50,26 @@ TEST_CASE("PNG of every colour type and depth decodes to its stored values", "[d
   struct Kind {
     int colorType, bits, stored;
   };
-  for (const auto& [colorType, bits, stored] : {Kind{0, 1, 1}, {0, 2, 1}, {0, 4, 1}, {0, 8, 1}, {0, 16, 1}, {2, 8, 3}, {2, 16, 3}, {3, 1, 1}, {3, 2, 1}, {3, 4, 1}, {3, 8, 1}, {4, 8, 2}, {4, 16, 2}, {6, 8, 4}, {6, 16, 4}})
+  for (const auto& [colorType, bits, stored] : {Kind{0, 1, 1},
+                                                {0, 2, 1},
+                                                {0, 4, 1},
+                                                {0, 8, 1},
+                                                {0, 16, 1},
+                                                {2, 8, 3},
+                                                {2, 16, 3},
+                                                {3, 1, 1},
+                                                {3, 2, 1},
+                                                {3, 4, 1},
+                                                {3, 8, 1},
+                                                {4, 8, 2},
+                                                {4, 16, 2},
+                                                {6, 8, 4},
+                                                {6, 16, 4}})
     for (bool interlaced : {false, true}) {
       INFO("type " << colorType << ", " << bits << " bits, interlaced " << interlaced);
       const unsigned mask = (1u << bits) - 1;
-      const Image image = decoded(makePng(13, 9, {colorType, bits, interlaced}, [&](int x, int y, int c) { return pattern(x, y, c) & mask; }));
+      const Image image = decoded(
+          makePng(13, 9, {colorType, bits, interlaced}, [&](int x, int y, int c) { return pattern(x, y, c) & mask; }));
       CHECK(image.width == 13);
       CHECK(image.height == 9);
       CHECK(image.type == (bits == 16 ? PixelType::U16 : PixelType::U8));
@@ -71,7 +88,8 @@ TEST_CASE("PNG of every colour type and depth decodes to its stored values", "[d
 }
 
 TEST_CASE("PNG transparency becomes alpha; colours are not multiplied by it", "[decode]") {
-  const Image palette = decoded(makePng(4, 1, {3, 4, false, true}, [](int x, int, int) { return static_cast<unsigned>(x + 5); }));
+  const Image palette =
+      decoded(makePng(4, 1, {3, 4, false, true}, [](int x, int, int) { return static_cast<unsigned>(x + 5); }));
   REQUIRE(palette.channels == 4);
   for (int x = 0; x < 4; ++x) {
     CHECK(sample(palette, x, 0, 1) == unsigned(2 * (x + 5)));
@@ -85,7 +103,8 @@ TEST_CASE("PNG transparency becomes alpha; colours are not multiplied by it", "[
   const Image grey = decoded(makePng(4, 1, {0, 8, false, true}, [](int x, int, int) { return x == 0 ? 0u : 77u; }));
   REQUIRE(grey.channels == 2);
   CHECK(sample(grey, 0, 0, 1) == 0);
-  const Image straight = decoded(makePng(2, 1, {6, 8}, [](int x, int, int c) { return c == 3 ? (x == 0 ? 0u : 10u) : 200u; }));
+  const Image straight =
+      decoded(makePng(2, 1, {6, 8}, [](int x, int, int c) { return c == 3 ? (x == 0 ? 0u : 10u) : 200u; }));
   CHECK(sample(straight, 0, 0, 0) == 200);
   CHECK(sample(straight, 1, 0, 2) == 200);
 }
@@ -111,7 +130,8 @@ TEST_CASE("JPEG: baseline, progressive, grey, CMYK; EXIF orientation is ignored"
 }
 
 TEST_CASE("Radiance HDR: values and the four orders of rows", "[decode]") {
-  // Mantissas m and exponent e stand for (m + 0.5) / 256 * 2^(e - 128) in Radiance's own code, m / 256 * 2^(e - 128) in most readers.
+  // Mantissas m and exponent e stand for (m + 0.5) / 256 * 2^(e - 128) in Radiance's own code, m / 256 * 2^(e - 128) in
+  // most readers.
   const auto pixel = [](int i) { return std::uint32_t(0x80000081u) + (std::uint32_t(i) << 16); };
   const int indexOfFirst[4] = {0, 6, 2, 8};  // which stored pixel shows at the top left
   const char* resolutions[4] = {"-Y 3 +X 3", "+Y 3 +X 3", "-Y 3 -X 3", "+Y 3 -X 3"};
@@ -138,7 +158,9 @@ TEST_CASE("OpenEXR: half, float, compressions, tiles; NaN and infinity pass thro
         options.dataWidth = options.displayWidth = 33, options.dataHeight = options.displayHeight = 21;
         options.half = half, options.tiled = tiled, options.compression = compression;
         const auto value = [](int x, int y, int c) {
-          return x == 0 && y == 0 ? std::numeric_limits<float>::infinity() : x == 1 && y == 0 ? std::nanf("") : 0.25f * float(x) + 8.0f * float(y) - float(c);
+          return x == 0 && y == 0   ? std::numeric_limits<float>::infinity()
+                 : x == 1 && y == 0 ? std::nanf("")
+                                    : 0.25f * float(x) + 8.0f * float(y) - float(c);
         };
         const Image image = decoded(makeExr(options, value));
         REQUIRE(image.type == PixelType::F32);
@@ -160,7 +182,8 @@ TEST_CASE("OpenEXR: the picture is the display window", "[decode]") {
   struct Window {
     int x, y, w, h;
   };
-  for (const auto& [x, y, w, h] : {Window{4, 4, 2, 2}, {0, 0, 20, 20}, {-3, 5, 7, 9}, {2, 3, 6, 5}, {100, 100, 4, 4}, {7, 7, 1, 1}}) {
+  for (const auto& [x, y, w, h] :
+       {Window{4, 4, 2, 2}, {0, 0, 20, 20}, {-3, 5, 7, 9}, {2, 3, 6, 5}, {100, 100, 4, 4}, {7, 7, 1, 1}}) {
     INFO(x << " " << y << " " << w << " " << h);
     options.dataX = x, options.dataY = y, options.dataWidth = w, options.dataHeight = h;
     const Image image = decoded(makeExr(options, value));
@@ -183,7 +206,8 @@ TEST_CASE("OpenEXR: one to many channels; the first four are kept, colours first
     std::vector<const char*> names;
     std::vector<float> want;
   };
-  for (const Kind& kind : {Kind{{"Y"}, {1}}, Kind{{"Y", "A"}, {1, 2}}, Kind{{"R", "G", "B"}, {1, 2, 3}}, Kind{{"A", "B", "G", "R"}, {4, 3, 2, 1}},
+  for (const Kind& kind : {Kind{{"Y"}, {1}}, Kind{{"Y", "A"}, {1, 2}}, Kind{{"R", "G", "B"}, {1, 2, 3}},
+                           Kind{{"A", "B", "G", "R"}, {4, 3, 2, 1}},
                            Kind{{"A", "B", "G", "R", "Z", "id"}, {4, 3, 2, 1}}, Kind{{"R"}, {1}}}) {
     ExrOptions options;
     options.channels = kind.names;
@@ -211,8 +235,10 @@ TEST_CASE("What the writers write is read back", "[decode]") {
       for (std::size_t i = 0; i < n; ++i) {
         want[i] = i % 5 == 0 ? 60000.0f : float(i) * 0.125f;  // exact in half float
         const std::uint16_t half = i % 5 == 0 ? 0x7b53 : 0;
-        if (type == PixelType::F32) floats.f32()[i] = want[i];
-        else std::memcpy(floats.data.data() + 2 * i, &half, 2);
+        if (type == PixelType::F32)
+          floats.f32()[i] = want[i];
+        else
+          std::memcpy(floats.data.data() + 2 * i, &half, 2);
         if (type == PixelType::F16 && i % 5 != 0) want[i] = 0;
       }
       auto exr = image::encodeExr(floats, "round.exr");
@@ -227,7 +253,8 @@ TEST_CASE("What the writers write is read back", "[decode]") {
 }
 
 TEST_CASE("Files that are no picture of the four formats are refused by their first bytes", "[decode]") {
-  for (std::string_view text : {"", "GIF89a....", "BM......", "II*\0........", "DDS |", "#?RAD", "\x89PNG", "\xff\xd8", "<svg/>", "P6 1 1 255 abc", "8BPS"}) {
+  for (std::string_view text : {"", "GIF89a....", "BM......", "II*\0........", "DDS |", "#?RAD", "\x89PNG", "\xff\xd8",
+                                "<svg/>", "P6 1 1 255 abc", "8BPS"}) {
     auto image = sharedPool().decode(bytesOf(text), "odd.png");
     REQUIRE_FALSE(image);
     CHECK(image.error().place == "odd.png");
@@ -241,7 +268,9 @@ TEST_CASE("The pictures of the shared data decode", "[decode][data]") {
   int count = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(data)) {
     const auto extension = entry.path().extension();
-    if ((extension != ".png" && extension != ".jpg" && extension != ".hdr") || entry.path().filename().string().starts_with("invalid")) continue;
+    if ((extension != ".png" && extension != ".jpg" && extension != ".hdr") ||
+        entry.path().filename().string().starts_with("invalid"))
+      continue;
     if (entry.path().string().find("gltf-validator") != std::string::npos) continue;
     INFO(entry.path());
     auto file = core::readFile(entry.path(), 1 << 30);

@@ -21,15 +21,18 @@ struct Seed {
 };
 
 std::vector<Seed> seeds() {
-  const auto noise = [](int x, int y, int c) { return unsigned((x * 73856093) ^ (y * 19349663) ^ (c * 83492791)) & 255; };
+  const auto noise = [](int x, int y, int c) {
+    return unsigned((x * 73856093) ^ (y * 19349663) ^ (c * 83492791)) & 255;
+  };
   const auto wave = [](int x, int y, int c) { return float(x * y % 11) - float(c); };
-  std::vector<Seed> list = {{"rgb.png", makePng(24, 20, {2, 8}, noise)},
-                            {"palette.png", makePng(24, 20, {3, 4, true, true}, [&](int x, int y, int) { return noise(x, y, 0) & 15; })},
-                            {"wide.png", makePng(24, 20, {6, 16}, noise)},
-                            {"rgb.jpg", bytesOfArray(kJpegRgb)},
-                            {"progressive.jpg", bytesOfArray(kJpegProgressive)},
-                            {"cmyk.jpg", bytesOfArray(kJpegCmyk)},
-                            {"flat.hdr", makeHdr("-Y 20 +X 24", 480, [](int i) { return std::uint32_t(i) * 0x01234567u; })}};
+  std::vector<Seed> list = {
+      {"rgb.png", makePng(24, 20, {2, 8}, noise)},
+      {"palette.png", makePng(24, 20, {3, 4, true, true}, [&](int x, int y, int) { return noise(x, y, 0) & 15; })},
+      {"wide.png", makePng(24, 20, {6, 16}, noise)},
+      {"rgb.jpg", bytesOfArray(kJpegRgb)},
+      {"progressive.jpg", bytesOfArray(kJpegProgressive)},
+      {"cmyk.jpg", bytesOfArray(kJpegCmyk)},
+      {"flat.hdr", makeHdr("-Y 20 +X 24", 480, [](int i) { return std::uint32_t(i) * 0x01234567u; })}};
   for (int compression : {0, 1, 3, 4, 5, 6, 8}) {  // none, RLE, ZIP, PIZ, PXR24, B44, DWAA
     ExrOptions options;
     options.dataWidth = options.displayWidth = 24, options.dataHeight = options.displayHeight = 20;
@@ -39,7 +42,8 @@ std::vector<Seed> seeds() {
   // A run-length coded Radiance picture: one run of 24 a channel.
   Bytes rle = bytesOf("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 20 +X 24\n");
   for (int y = 0; y < 20; ++y)
-    for (int b : {2, 2, 0, 24, 128 + 24, y, 128 + 24, 2 * y, 128 + 24, 0, 128 + 24, 129}) rle.push_back(static_cast<std::byte>(b));
+    for (int b : {2, 2, 0, 24, 128 + 24, y, 128 + 24, 2 * y, 128 + 24, 0, 128 + 24, 129})
+      rle.push_back(static_cast<std::byte>(b));
   list.push_back({"rle.hdr", rle});
   return list;
 }
@@ -53,10 +57,11 @@ bool checkAnswer(ImageDecoder& pool, const Bytes& file, const char* name) {
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   bool sane = seconds < 20;
   if (image)
-    sane = sane && image->width > 0 && image->width <= 4096 && image->height > 0 && image->height <= 4096 && image->channels >= 1 && image->channels <= 4 &&
-           image->data.size() == image->byteSize();
+    sane = sane && image->width > 0 && image->width <= 4096 && image->height > 0 && image->height <= 4096 &&
+           image->channels >= 1 && image->channels <= 4 && image->data.size() == image->byteSize();
   else
-    sane = sane && image.error().place == name && !image.error().what.empty() && !image.error().remedy.empty() && image.error().what.size() < 400;
+    sane = sane && image.error().place == name && !image.error().what.empty() && !image.error().remedy.empty() &&
+           image.error().what.size() < 400;
   if (!sane) UNSCOPED_INFO(name << " after " << seconds << " s: " << (image ? "picture" : image.error().message()));
   return sane;
 }
@@ -66,15 +71,22 @@ void mutate(Bytes& file, std::mt19937& random) {
   for (int i = 0; i < changes; ++i) {
     const std::size_t at = random() % file.size();
     switch (random() % 5) {
-      case 0: file[at] = static_cast<std::byte>(random()); break;
-      case 1: file[at] ^= static_cast<std::byte>(1u << random() % 8); break;
-      case 2: file[at] = std::byte(random() % 2 ? 0xff : 0); break;
+      case 0:
+        file[at] = static_cast<std::byte>(random());
+        break;
+      case 1:
+        file[at] ^= static_cast<std::byte>(1u << random() % 8);
+        break;
+      case 2:
+        file[at] = std::byte(random() % 2 ? 0xff : 0);
+        break;
       case 3: {  // an extreme 32-bit value
         const std::uint32_t values[] = {0, 1, 0x7fffffff, 0x80000000, 0xffffffff, 0x00010000};
         if (at + 4 <= file.size()) std::memcpy(file.data() + at, &values[random() % 6], 4);
         break;
       }
-      default: file.resize(std::max<std::size_t>(file.size() - random() % 16, 16));
+      default:
+        file.resize(std::max<std::size_t>(file.size() - random() % 16, 16));
     }
   }
 }
@@ -120,7 +132,13 @@ TEST_CASE("Decompression bombs are refused by their header", "[decode][hostile]"
   auto pool = makeDecoderPool({"/no/helper/is/started", 1});
   DecodeLimits unlimited;
   unlimited.maxSide = 0x7fffffff, unlimited.maxBytes = ~0ull;
-  for (const auto& [width, height] : {std::pair<std::uint32_t, std::uint32_t>{65535, 65535}, {1000000000, 1}, {1, 1000000000}, {0x7fffffff, 0x7fffffff}, {0xffffffff, 1}, {0, 5}, {5, 0}}) {
+  for (const auto& [width, height] : {std::pair<std::uint32_t, std::uint32_t>{65535, 65535},
+                                      {1000000000, 1},
+                                      {1, 1000000000},
+                                      {0x7fffffff, 0x7fffffff},
+                                      {0xffffffff, 1},
+                                      {0, 5},
+                                      {5, 0}}) {
     INFO(width << " x " << height);
     auto image = pool->decode(pngOfSize(width, height), "bomb.png");
     REQUIRE_FALSE(image);
@@ -159,7 +177,9 @@ TEST_CASE("Pictures cut off anywhere are a picture or an error", "[decode][hosti
   for (const Seed& seed : seeds())
     for (std::size_t length = 0; length < seed.bytes.size(); length += length < 64 ? 3 : step) {
       INFO(seed.name << " cut at " << length);
-      REQUIRE(checkAnswer(sharedPool(), Bytes(seed.bytes.begin(), seed.bytes.begin() + static_cast<std::ptrdiff_t>(length)), seed.name));
+      REQUIRE(checkAnswer(sharedPool(),
+                          Bytes(seed.bytes.begin(), seed.bytes.begin() + static_cast<std::ptrdiff_t>(length)),
+                          seed.name));
     }
 }
 

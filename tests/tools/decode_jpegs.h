@@ -1,5 +1,6 @@
-// Small JPEG files for the decoder tests, made with libjpeg-turbo at quality 90, 4:4:4. Colour ones: the left half is (220, 30, 30),
-// the right half (60, 60, 200); the grey one 200 and 40; the CMYK one (inverted, as Adobe stores it) green taken away on the right.
+// Small JPEG files for the decoder tests, made with libjpeg-turbo at quality 90, 4:4:4. Colour ones: the left half is
+// (220, 30, 30), the right half (60, 60, 200); the grey one 200 and 40; the CMYK one (inverted, as Adobe stores it)
+// green taken away on the right.
 #pragma once
 #include <array>
 

@@ -47,8 +47,10 @@ void setPaletteAndTransparency(png_structp png, png_infop info, const PngOptions
   if (options.colorType == 3) png_set_PLTE(png, info, palette.data(), static_cast<int>(palette.size()));
   png_color_16 key{};
   if (options.transparency) {
-    if (options.colorType == 3) png_set_tRNS(png, info, alpha.data(), static_cast<int>(alpha.size()), nullptr);
-    else png_set_tRNS(png, info, nullptr, 0, &key);
+    if (options.colorType == 3)
+      png_set_tRNS(png, info, alpha.data(), static_cast<int>(alpha.size()), nullptr);
+    else
+      png_set_tRNS(png, info, nullptr, 0, &key);
   }
 }
 
@@ -61,8 +63,9 @@ Bytes makePng(int width, int height, const PngOptions& options, const std::funct
   png_infop info = png_create_info_struct(png);
   png_set_write_fn(png, &bytes, appendTo, nullptr);
   png_set_compression_level(png, options.level);
-  png_set_IHDR(png, info, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height), options.bits, options.colorType,
-               options.interlaced ? PNG_INTERLACE_ADAM7 : PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_set_IHDR(png, info, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height), options.bits,
+               options.colorType, options.interlaced ? PNG_INTERLACE_ADAM7 : PNG_INTERLACE_NONE,
+               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   setPaletteAndTransparency(png, info, options);
   const int channels = options.colorType == 2 ? 3 : options.colorType == 4 ? 2 : options.colorType == 6 ? 4 : 1;
   std::vector<std::vector<png_byte>> rows(static_cast<std::size_t>(height));
@@ -71,7 +74,8 @@ Bytes makePng(int width, int height, const PngOptions& options, const std::funct
     auto& row = rows[static_cast<std::size_t>(y)];
     row.assign(static_cast<std::size_t>((width * channels * options.bits + 7) / 8), 0);
     for (int x = 0; x < width; ++x)
-      for (int c = 0; c < channels; ++c) storeSample(row, static_cast<std::size_t>(x * channels + c), options.bits, value(x, y, c));
+      for (int c = 0; c < channels; ++c)
+        storeSample(row, static_cast<std::size_t>(x * channels + c), options.bits, value(x, y, c));
     pointers.push_back(row.data());
   }
   png_write_info(png, info);
@@ -89,8 +93,11 @@ Bytes makeHdr(std::string_view resolution, int pixels, const std::function<std::
 }
 
 Bytes makeExr(const ExrOptions& o, const std::function<float(int, int, int)>& value) {
-  const auto box = [](int x, int y, int w, int h) { return Imath::Box2i(Imath::V2i(x, y), Imath::V2i(x + w - 1, y + h - 1)); };
-  Imf::Header header(box(o.displayX, o.displayY, o.displayWidth, o.displayHeight), box(o.dataX, o.dataY, o.dataWidth, o.dataHeight));
+  const auto box = [](int x, int y, int w, int h) {
+    return Imath::Box2i(Imath::V2i(x, y), Imath::V2i(x + w - 1, y + h - 1));
+  };
+  Imf::Header header(box(o.displayX, o.displayY, o.displayWidth, o.displayHeight),
+                     box(o.dataX, o.dataY, o.dataWidth, o.dataHeight));
   header.compression() = static_cast<Imf::Compression>(o.compression);
   if (o.tiled) header.setTileDescription(Imf::TileDescription(16, 16, Imf::ONE_LEVEL));
   const auto pixels = static_cast<std::size_t>(o.dataWidth) * static_cast<std::size_t>(o.dataHeight);
@@ -103,15 +110,19 @@ Bytes makeExr(const ExrOptions& o, const std::function<float(int, int, int)>& va
       for (int x = 0; x < o.dataWidth; ++x) {
         const float v = value(o.dataX + x, o.dataY + y, c);
         const half h(v);
-        char* to = plane.data() + (static_cast<std::size_t>(y) * static_cast<std::size_t>(o.dataWidth) + static_cast<std::size_t>(x)) * size;
+        char* to =
+            plane.data() +
+            (static_cast<std::size_t>(y) * static_cast<std::size_t>(o.dataWidth) + static_cast<std::size_t>(x)) * size;
         std::memcpy(to, o.half ? static_cast<const void*>(&h) : &v, size);
       }
     const Imf::PixelType type = o.half ? Imf::HALF : Imf::FLOAT;
     header.channels().insert(o.channels[static_cast<std::size_t>(c)], Imf::Channel(type));
     frame.insert(o.channels[static_cast<std::size_t>(c)],
-                 Imf::Slice::Make(type, plane.data(), Imath::V2i(o.dataX, o.dataY), o.dataWidth, o.dataHeight, size, size * static_cast<std::size_t>(o.dataWidth)));
+                 Imf::Slice::Make(type, plane.data(), Imath::V2i(o.dataX, o.dataY), o.dataWidth, o.dataHeight, size,
+                                  size * static_cast<std::size_t>(o.dataWidth)));
   }
-  const auto file = std::filesystem::temp_directory_path() / ("burnish-decode-test-" + std::to_string(::getpid()) + ".exr");
+  const auto file =
+      std::filesystem::temp_directory_path() / ("burnish-decode-test-" + std::to_string(::getpid()) + ".exr");
   if (o.tiled) {
     Imf::TiledOutputFile out(file.c_str(), header, 0);
     out.setFrameBuffer(frame);

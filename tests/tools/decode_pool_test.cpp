@@ -78,7 +78,8 @@ class Watch {
   [[nodiscard]] std::vector<Process> childrenOf(const std::vector<pid_t>& parents) const {
     std::vector<Process> found;
     for (const Process& p : decodeProcesses())
-      if (std::find(parents.begin(), parents.end(), p.parent) != parents.end() && std::find(before_.begin(), before_.end(), p.pid) == before_.end())
+      if (std::find(parents.begin(), parents.end(), p.parent) != parents.end() &&
+          std::find(before_.begin(), before_.end(), p.pid) == before_.end())
         found.push_back(p);
     return found;
   }
@@ -156,7 +157,8 @@ TEST_CASE("A worker or keeper killed while idle is replaced without an error", "
     REQUIRE(pool->decode(smallPicture(), "a"));
     const Process worker = watch.worker();
     ::kill(i % 2 == 0 ? worker.pid : worker.parent, SIGKILL);  // a keeper's workers follow it
-    REQUIRE(within(std::chrono::seconds(5), [&] { return !exists(worker.pid) && (i % 2 == 0 || !exists(worker.parent)); }));
+    REQUIRE(
+        within(std::chrono::seconds(5), [&] { return !exists(worker.pid) && (i % 2 == 0 || !exists(worker.parent)); }));
   }
   CHECK(pool->decode(smallPicture(), "last"));
 }
@@ -184,7 +186,8 @@ TEST_CASE("A worker's memory is limited", "[decode][pool]") {
   DecoderPoolOptions options{kHelper, 1};
   options.memoryBytes = 100ull << 20;
   auto pool = makeDecoderPool(options);
-  auto answer = pool->decode(makeHdr("+Y 2500 +X 2500", 2500 * 2500, [](int) { return 0x80808080u; }), "large.hdr");  // 75 MB at once
+  auto answer = pool->decode(makeHdr("+Y 2500 +X 2500", 2500 * 2500, [](int) { return 0x80808080u; }),
+                             "large.hdr");  // 75 MB at once
   REQUIRE_FALSE(answer);
   CHECK(answer.error().message().find("memory") != std::string::npos);
   auto next = pool->decode(smallPicture(), "next");
@@ -251,7 +254,9 @@ TEST_CASE("Helpers end with a program that is killed", "[decode][pool]") {
   ::kill(helpers[1].pid, SIGSTOP);  // even one that does not listen
   ::kill(child, SIGKILL);
   ::waitpid(child, nullptr, 0);
-  CHECK(within(std::chrono::seconds(5), [&] { return std::none_of(helpers.begin(), helpers.end(), [](const Process& p) { return exists(p.pid); }); }));
+  CHECK(within(std::chrono::seconds(5), [&] {
+    return std::none_of(helpers.begin(), helpers.end(), [](const Process& p) { return exists(p.pid); });
+  }));
   ::close(ends[0]);
   ::close(ends[1]);
 }
@@ -266,7 +271,8 @@ TEST_CASE("A helper inherits no file of the program, and can open none", "[decod
     for (const auto& entry : fs::directory_iterator("/proc/" + std::to_string(p.pid) + "/fd", error)) {
       const std::string target = fs::read_symlink(entry.path(), error);
       INFO(target);
-      CHECK((target.starts_with("socket:") || target.starts_with("/dev/null") || target.starts_with("/memfd:burnish-decode")));
+      CHECK((target.starts_with("socket:") || target.starts_with("/dev/null") ||
+             target.starts_with("/memfd:burnish-decode")));
     }
     if (p.parent == ::getpid()) continue;
     std::ifstream limits("/proc/" + std::to_string(p.pid) + "/limits");

@@ -36,16 +36,20 @@ TEST_CASE("Every half float converts exactly, both ways", "[image]") {
   int wrong = 0;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const double want = halfValue(all[i]);
-    if (std::isnan(want)) wrong += !std::isnan(wide[i]) || !std::isnan(halfValue(back[i]));
-    else wrong += wide[i] != want || back[i] != all[i];
+    if (std::isnan(want))
+      wrong += !std::isnan(wide[i]) || !std::isnan(halfValue(back[i]));
+    else
+      wrong += wide[i] != want || back[i] != all[i];
   }
   CHECK(wrong == 0);
 }
 
 TEST_CASE("Floats round to the nearest half, ties to even, in vectors and in the rest", "[image]") {
   std::vector<float> values;
-  for (int i = 0; i < 4099; ++i) values.push_back(std::ldexp(1.0f + float(i * 7919 % 8388608) / 8388608.0f, i % 42 - 26) * (i % 3 ? 1.0f : -1.0f));
-  for (float v : {65504.0f, 65519.9f, 65520.0f, 1e30f, -1e30f, 1.00048828125f, 1.00146484375f, 0.0f, -0.0f}) values.push_back(v);
+  for (int i = 0; i < 4099; ++i)
+    values.push_back(std::ldexp(1.0f + float(i * 7919 % 8388608) / 8388608.0f, i % 42 - 26) * (i % 3 ? 1.0f : -1.0f));
+  for (float v : {65504.0f, 65519.9f, 65520.0f, 1e30f, -1e30f, 1.00048828125f, 1.00146484375f, 0.0f, -0.0f})
+    values.push_back(v);
   std::vector<std::uint16_t> out(values.size());
   floatToHalf(values, out);
   int wrong = 0;
@@ -77,7 +81,8 @@ TEST_CASE("sRGB decoding and encoding are each other's inverse and the standard'
   for (int i = 0; i <= 200000; ++i) {
     const double v = i / 200000.0, exact = srgbEncode(v) * 255;
     const int code = linearToSrgb8(static_cast<float>(v));
-    wrong += std::abs(code - exact) > 0.5 + 2e-3;  // the two branches of the standard differ by 1e-3 of a code where they meet
+    wrong += std::abs(code - exact) >
+             0.5 + 2e-3;  // the two branches of the standard differ by 1e-3 of a code where they meet
   }
   CHECK(wrong == 0);
   CHECK(linearToSrgb8(-1) == 0);

@@ -1,7 +1,8 @@
-// PNG and OpenEXR writers: what is refused, and files that are complete or absent. (tests/tools/decode_*.cpp read them back.)
-#include <ImfInputFile.h>
+// PNG and OpenEXR writers: what is refused, and files that are complete or absent. (tests/tools/decode_*.cpp read them
+// back.)
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
+#include <ImfInputFile.h>
 #include <png.h>
 #include <unistd.h>
 
@@ -74,15 +75,17 @@ TEST_CASE("A written EXR holds the same values under the usual names", "[image]"
   const char* names[4][4] = {{"Y"}, {"Y", "A"}, {"R", "G", "B"}, {"R", "G", "B", "A"}};
   for (int channels = 1; channels <= 4; ++channels) {
     Image image = makeImage(31, 40, channels, PixelType::F32);
-    for (std::size_t i = 0; i < image.pixelCount() * std::size_t(channels); ++i) image.f32()[i] = static_cast<float>(i) * 1.1f - 100;
+    for (std::size_t i = 0; i < image.pixelCount() * std::size_t(channels); ++i)
+      image.f32()[i] = static_cast<float>(i) * 1.1f - 100;
     REQUIRE(writeExr(file, image));
     Imf::InputFile in(file.c_str(), 0);
     CHECK(in.header().dataWindow() == Imath::Box2i({0, 0}, {30, 39}));
     std::vector<float> values(image.pixelCount() * std::size_t(channels));
     Imf::FrameBuffer frame;
     for (int c = 0; c < channels; ++c)
-      frame.insert(names[channels - 1][c], Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(values.data() + c), 4 * std::size_t(channels), 4 * 31 * std::size_t(channels),
-                                                      1, 1, -12345.0));
+      frame.insert(names[channels - 1][c],
+                   Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(values.data() + c), 4 * std::size_t(channels),
+                              4 * 31 * std::size_t(channels), 1, 1, -12345.0));
     in.setFrameBuffer(frame);
     in.readPixels(0, 39);
     CHECK(std::memcmp(values.data(), image.data.data(), image.data.size()) == 0);
@@ -98,9 +101,11 @@ TEST_CASE("Pictures that cannot be written are one clear error, and leave no fil
   Image inconsistent = bytes, inconsistentFloats = floats;
   inconsistent.data.pop_back();
   inconsistentFloats.data.pop_back();
-  for (const Result<void>& result : {writePng(file, floats), writePng(file, Image{}), writePng(file, inconsistent), writePng(file, makeImage(0, 4, 3, PixelType::U8)),
-                                     writeExr(file, bytes), writeExr(file, Image{}), writeExr(file, inconsistentFloats), writePng(folder.path / "no/p.png", bytes),
-                                     writeExr(folder.path / "no/p.exr", floats), writePng(folder.path, bytes)}) {
+  for (const Result<void>& result :
+       {writePng(file, floats), writePng(file, Image{}), writePng(file, inconsistent),
+        writePng(file, makeImage(0, 4, 3, PixelType::U8)), writeExr(file, bytes), writeExr(file, Image{}),
+        writeExr(file, inconsistentFloats), writePng(folder.path / "no/p.png", bytes),
+        writeExr(folder.path / "no/p.exr", floats), writePng(folder.path, bytes)}) {
     REQUIRE_FALSE(result);
     CHECK(result.error().place.find(folder.path.string()) != std::string::npos);
     CHECK_FALSE(result.error().what.empty());

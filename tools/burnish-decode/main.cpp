@@ -43,7 +43,7 @@ void limit(decltype(RLIMIT_AS) what, rlim_t soft, rlim_t hard) {
   struct rlimit now {};
   if (::getrlimit(what, &now) != 0) return;
   const rlim_t top = std::min(hard, now.rlim_max);
-  const struct rlimit value {std::min(soft, top), top};
+  const struct rlimit value { std::min(soft, top), top };
   ::setrlimit(what, &value);
 }
 
@@ -69,7 +69,8 @@ void confineWorker(std::uint64_t memoryBytes) {
 void allowCpu(double seconds) {
   struct rusage used {};
   ::getrusage(RUSAGE_SELF, &used);
-  const double soft = double(used.ru_utime.tv_sec + used.ru_stime.tv_sec) + 2 + std::ceil(std::clamp(seconds, 0.0, 1e6));
+  const double soft =
+      double(used.ru_utime.tv_sec + used.ru_stime.tv_sec) + 2 + std::ceil(std::clamp(seconds, 0.0, 1e6));
   struct rlimit now {};
   if (::getrlimit(RLIMIT_CPU, &now) != 0) return;
   now.rlim_cur = std::min(static_cast<rlim_t>(soft), now.rlim_max);
@@ -185,7 +186,8 @@ bool receiveOrder(OrderWithDescriptors& received) {
   while (n < 0 && errno == EINTR);
   if (n != static_cast<ssize_t>(sizeof received.order) || received.order.magic != kDecodeMagic) return false;
   const cmsghdr* header = CMSG_FIRSTHDR(&message);
-  if (header && header->cmsg_level == SOL_SOCKET && header->cmsg_type == SCM_RIGHTS && header->cmsg_len == CMSG_LEN(2 * sizeof(int))) {
+  if (header && header->cmsg_level == SOL_SOCKET && header->cmsg_type == SCM_RIGHTS &&
+      header->cmsg_len == CMSG_LEN(2 * sizeof(int))) {
     int descriptors[2];
     std::memcpy(descriptors, CMSG_DATA(header), sizeof descriptors);
     received.socket = descriptors[0], received.memory = descriptors[1];
@@ -198,7 +200,8 @@ KeeperAnswer forkWorker(const OrderWithDescriptors& received) {
   const pid_t keeper = ::getpid();
   if (received.socket >= 0 && received.memory >= 0) {
     // dup2 must not meet the numbers that it writes to.
-    const int socket = ::fcntl(received.socket, F_DUPFD_CLOEXEC, 16), memory = ::fcntl(received.memory, F_DUPFD_CLOEXEC, 16);
+    const int socket = ::fcntl(received.socket, F_DUPFD_CLOEXEC, 16),
+              memory = ::fcntl(received.memory, F_DUPFD_CLOEXEC, 16);
     answer.pid = ::fork();
     if (answer.pid == 0) becomeWorker(socket, memory, received.order.memoryBytes, keeper);
     answer.status = answer.pid < 0 ? errno : 0;
@@ -215,7 +218,8 @@ KeeperAnswer endWorker(pid_t pid) {
   KeeperAnswer answer{kDecodeMagic, KeeperCommand::End, pid, 0};
   if (pid > 0 && ::waitpid(pid, &answer.status, WNOHANG) == 0) {
     ::kill(pid, SIGKILL);
-    ::waitpid(pid, &answer.status, 0);  // the true reason where it was dying already: its socket closes before it can be waited for
+    ::waitpid(pid, &answer.status,
+              0);  // the true reason where it was dying already: its socket closes before it can be waited for
   }
   return answer;
 }
@@ -247,8 +251,10 @@ bool startedByPool() {
 int main(int argc, char** argv) {
   const std::string_view argument = argc > 1 ? argv[1] : "";
   if (argument == "--help" || argument == "--version" || !startedByPool()) {
-    std::fprintf(argument.empty() ? stderr : stdout,
-                 "burnish-decode %s: decodes pictures for the burnish library and program, which start it by themselves.\n", BURNISH_VERSION);
+    std::fprintf(
+        argument.empty() ? stderr : stdout,
+        "burnish-decode %s: decodes pictures for the burnish library and program, which start it by themselves.\n",
+        BURNISH_VERSION);
     return argument.empty() ? 2 : 0;
   }
   const int status = keep();

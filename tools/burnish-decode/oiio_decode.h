@@ -27,6 +27,7 @@ void prepareOpenImageIo();
 /// Decodes `file` into `sink`. No colour conversion, no premultiplication, no orientation but a Radiance file's own
 /// order of rows. More than four channels: the first four. OpenEXR: the display window, zero where there is no data.
 /// Catches everything that OpenImageIO throws; it may still crash or hang on a damaged file.
-Result<Decoded> decodePicture(std::span<const std::byte> file, std::string_view name, const DecodeLimits& limits, PixelSink& sink);
+Result<Decoded> decodePicture(std::span<const std::byte> file, std::string_view name, const DecodeLimits& limits,
+                              PixelSink& sink);
 
 }  // namespace burnish::decode
