@@ -27,9 +27,10 @@ CodedTexel projectDielectric(const Reflectance& average) {
   return {glm::clamp(average.diffuse, 0.0f, 1.0f), std::uint8_t(std::lround(code * 255))};
 }
 
-// Keeping the sum S = F0 + diffuse fixes the albedo for a metalness m: a(m) = S - w (1 - m), w = 0.0196. What F0 becomes is then
-// F(m) = w (1 - m) + m a(m) = w (1 - m)² + m S, and m is chosen to bring it nearest to the wanted F0 over the three channels: Newton on
-// the derivative of |F(m) - F0|² (Gauss-Newton, the residual being small). A set of texels with one m comes back exactly.
+// Keeping the sum S = F0 + diffuse fixes the albedo for a metalness m: a(m) = S - w (1 - m), w = 0.0196. What F0
+// becomes is then F(m) = w (1 - m) + m a(m) = w (1 - m)² + m S, and m is chosen to bring it nearest to the wanted F0
+// over the three channels: Newton on the derivative of |F(m) - F0|² (Gauss-Newton, the residual being small). A set of
+// texels with one m comes back exactly.
 CodedTexel projectConductor(const Reflectance& average) {
   const glm::vec3 sum = average.f0 + average.diffuse;
   float m = std::clamp(glm::dot(average.f0 - kWaterF0, sum) / std::max(glm::dot(sum, sum), 1e-12f), 0.0f, 1.0f);

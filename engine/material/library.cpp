@@ -1,9 +1,11 @@
-// The library of named substances. Nobody paints substance by hand: a name gives the number, and the number says where it comes from.
+// The library of named substances. Nobody paints substance by hand: a name gives the number, and the number says where
+// it comes from.
 //
-// Dielectrics: the index of refraction at 589 nm. Conductors: reflectance at normal incidence, ((n-1)² + k²) / ((n+1)² + k²), from the optical constants
-// named in the row (as collected by refractiveindex.info, public domain), integrated from 380 to 700 nm over illuminant D65 with the CIE 1931 observer (the
-// fit of Wyman, Sloan and Shirley, "Simple Analytic Approximations to the CIE XYZ Color Matching Functions", 2013), brought to linear Rec.709 and clamped
-// to [0, 1] (gold's red is 1.04: it lies outside the gamut). tests/unit/material_substances_test.cpp does the integral again.
+// Dielectrics: the index of refraction at 589 nm. Conductors: reflectance at normal incidence, ((n-1)² + k²) / ((n+1)²
+// + k²), from the optical constants named in the row (as collected by refractiveindex.info, public domain), integrated
+// from 380 to 700 nm over illuminant D65 with the CIE 1931 observer (the fit of Wyman, Sloan and Shirley, "Simple
+// Analytic Approximations to the CIE XYZ Color Matching Functions", 2013), brought to linear Rec.709 and clamped to [0,
+// 1] (gold's red is 1.04: it lies outside the gamut). tests/unit/material_substances_test.cpp does the integral again.
 #include <burnish/material.h>
 
 #include <algorithm>
@@ -16,7 +18,9 @@ constexpr Substance dielectric(std::string_view name, float ior, std::string_vie
   const float f0 = f0FromIor(ior);
   return {name, false, ior, {f0, f0, f0}, source};
 }
-constexpr Substance conductor(std::string_view name, glm::vec3 f0, std::string_view source) { return {name, true, 0, f0, source}; }
+constexpr Substance conductor(std::string_view name, glm::vec3 f0, std::string_view source) {
+  return {name, true, 0, f0, source};
+}
 
 constexpr std::array kSubstances = {
     // clang-format off
@@ -61,7 +65,7 @@ constexpr std::array kSubstances = {
     dielectric("peridot", 1.67f, "Read, Gemmology (3rd ed.), table of refractive indices"),
     dielectric("pet", 1.575f, "polyethylene terephthalate, Polymer Data Handbook"),
     dielectric("plastic", 1.5f, "glTF 2.0: F0 0.04; common polymers lie between 1.41 and 1.59"),
-    conductor("platinum", {0.672f, 0.637f, 0.585f}, "Lagarde, Feeding a physically based shading model (2011), from Palik's Handbook"),
+    conductor("platinum", {0.672f, 0.637f, 0.585f}, "Lagarde 2011 (Feeding a physically based shading model), from Palik"),
     dielectric("polycarbonate", 1.585f, "Sultanova et al. 2009"),
     dielectric("polystyrene", 1.592f, "Sultanova et al. 2009"),
     dielectric("ptfe", 1.35f, "Polymer Data Handbook"),
@@ -91,9 +95,10 @@ constexpr std::array kSubstances = {
 struct Alias {
   std::string_view name, of;
 };
-constexpr Alias kAliases[] = {{"aluminum", "aluminium"}, {"chrome", "chromium"},    {"corundum", "sapphire"},   {"cotton", "cellulose"}, {"pmma", "acrylic"},
-                              {"paper", "cellulose"},    {"stainless steel", "steel"}, {"marble", "calcite"},      {"teflon", "ptfe"},      {"titanium dioxide", "rutile"},
-                              {"wood", "cellulose"}};
+constexpr Alias kAliases[] = {{"aluminum", "aluminium"},      {"chrome", "chromium"}, {"corundum", "sapphire"},
+                              {"cotton", "cellulose"},        {"pmma", "acrylic"},    {"paper", "cellulose"},
+                              {"stainless steel", "steel"},   {"marble", "calcite"},  {"teflon", "ptfe"},
+                              {"titanium dioxide", "rutile"}, {"wood", "cellulose"}};
 
 constexpr char fold(char c) {
   if (c == '-' || c == '_') return ' ';

@@ -10,7 +10,9 @@ constexpr std::size_t pixelsOf(int width, int height) { return std::size_t(width
 
 float largest(const glm::vec3& v) { return std::max({v.x, v.y, v.z}); }
 
-ConversionError difference(const Reflectance& a, const Reflectance& b) { return {largest(glm::abs(a.f0 - b.f0)), largest(glm::abs(a.diffuse - b.diffuse))}; }
+ConversionError difference(const Reflectance& a, const Reflectance& b) {
+  return {largest(glm::abs(a.f0 - b.f0)), largest(glm::abs(a.diffuse - b.diffuse))};
+}
 
 glm::vec3 linearAt(const Image* rgba, std::size_t pixel) {
   if (!rgba) return glm::vec3(1);
@@ -54,7 +56,9 @@ Image mergeAlbedoSubstance(const AlbedoInput& in, int width, int height, Convers
   return out;
 }
 
-Reflectance fromSpecular(const glm::vec3& diffuse, const glm::vec3& specular) { return {specular, diffuse * (1 - largest(specular))}; }
+Reflectance fromSpecular(const glm::vec3& diffuse, const glm::vec3& specular) {
+  return {specular, diffuse * (1 - largest(specular))};
+}
 
 CodedTexel nearestTexel(const Reflectance& wanted, ConversionError& error) {
   const CodedTexel dielectric = projectDielectric(wanted), conductor = projectConductor(wanted);
@@ -65,16 +69,18 @@ CodedTexel nearestTexel(const Reflectance& wanted, ConversionError& error) {
 }
 
 Image mergeSpecular(const SpecularInput& in, int width, int height, ConversionError& error) {
-  // Painted F0 above this is metal or a filtered edge to it. Conductors show grey F0 of any height too, and with one rule for both the codes run one way
-  // along such an edge (material/mips.cpp has the same reason).
+  // Painted F0 above this is metal or a filtered edge to it. Conductors show grey F0 of any height too, and with one
+  // rule for both the codes run one way along such an edge (material/mips.cpp has the same reason).
   constexpr float kMetalF0 = 0.08f;
   Image out = makeImage(width, height, 4, PixelType::U8);
   const SrgbEncoder& encode = linearToSrgb();
   std::uint8_t* to = out.u8();
   const std::size_t pixels = pixelsOf(width, height);
   for (std::size_t i = 0; i < pixels; ++i, to += 4) {
-    const Reflectance wanted = fromSpecular(in.diffuseFactor * linearAt(in.diffuse, i), in.specularFactor * linearAt(in.specular, i));
-    const CodedTexel t = (wanted.f0.x + wanted.f0.y + wanted.f0.z) / 3 <= kMetalF0 ? projectDielectric(wanted) : projectConductor(wanted);
+    const Reflectance wanted =
+        fromSpecular(in.diffuseFactor * linearAt(in.diffuse, i), in.specularFactor * linearAt(in.specular, i));
+    const CodedTexel t = (wanted.f0.x + wanted.f0.y + wanted.f0.z) / 3 <= kMetalF0 ? projectDielectric(wanted)
+                                                                                   : projectConductor(wanted);
     error.widen(difference(decode(t), wanted));
     for (int c = 0; c < 3; ++c) to[c] = encode(t.albedo[c]);
     to[3] = t.code;
@@ -82,12 +88,14 @@ Image mergeSpecular(const SpecularInput& in, int width, int height, ConversionEr
   return out;
 }
 
-Image dielectricCodes(const glm::vec3& f0, const Image* strength, const Image* color, int width, int height, ConversionError& error) {
+Image dielectricCodes(const glm::vec3& f0, const Image* strength, const Image* color, int width, int height,
+                      ConversionError& error) {
   Image out = makeImage(width, height, 4, PixelType::U8);
   std::uint8_t* to = out.u8();
   const std::size_t pixels = pixelsOf(width, height);
   for (std::size_t i = 0; i < pixels; ++i, to += 4) {
-    const glm::vec3 wanted = glm::min(f0 * linearAt(color, i), 1.0f) * (strength ? float(strength->u8()[4 * i + 3]) / 255 : 1.0f);
+    const glm::vec3 wanted =
+        glm::min(f0 * linearAt(color, i), 1.0f) * (strength ? float(strength->u8()[4 * i + 3]) / 255 : 1.0f);
     const CodedTexel t = projectDielectric({wanted, {}});
     error.f0 = std::max(error.f0, largest(glm::abs(decode(t).f0 - wanted)));
     to[0] = t.code;
@@ -95,8 +103,8 @@ Image dielectricCodes(const glm::vec3& f0, const Image* strength, const Image* c
   return out;
 }
 
-Image mergeNormalRoughness(const Image* normal, float normalScale, const Image* roughness, int channel, const std::array<std::uint8_t, 256>& table, int width,
-                           int height) {
+Image mergeNormalRoughness(const Image* normal, float normalScale, const Image* roughness, int channel,
+                           const std::array<std::uint8_t, 256>& table, int width, int height) {
   Image out = makeImage(width, height, 4, PixelType::U8);
   std::uint8_t* to = out.u8();
   const std::size_t pixels = pixelsOf(width, height);
@@ -112,9 +120,10 @@ Image mergeNormalRoughness(const Image* normal, float normalScale, const Image* 
       std::copy_n(n, 3, to);
       continue;
     }
-    // glTF: normalize((sample * 2 - 1) * vec3(scale, scale, 1))
-    const glm::vec3 v = glm::normalize(glm::vec3(float(2 * n[0] - 255) * normalScale, float(2 * n[1] - 255) * normalScale, float(2 * n[2] - 255)));
-    for (int c = 0; c < 3; ++c) to[c] = std::uint8_t(std::clamp((v[c] * 0.5f + 0.5f) * 255 + 0.5f, 0.0f, 255.0f));
+    // glTF: normalize((sample * 2 - 1) * vec3(scale, scale, 1)), with 128 as zero so that flat stays flat.
+    const glm::vec3 v(float(n[0] - 128) * normalScale, float(n[1] - 128) * normalScale, float(n[2] - 128));
+    const float length = glm::length(v);
+    for (int c = 0; c < 3; ++c) to[c] = length > 0 ? std::uint8_t(128.5f + 127 * v[c] / length) : n[c];
   }
   return out;
 }

@@ -1,4 +1,5 @@
-// Building the maps of docs/shading.md, section 1, from the pictures that glTF materials bring. All pictures are RGBA8 of one size (material/pixels.h).
+// Building the maps of docs/shading.md, section 1, from the pictures that glTF materials bring. All pictures are RGBA8
+// of one size (material/pixels.h).
 #pragma once
 #include <burnish/image.h>
 #include <burnish/material.h>
@@ -18,7 +19,8 @@ struct ConversionError {
   }
 };
 
-/// The error of showing glTF's F0 = mix(dielectricF0, base, m), diffuse = base (1 - m) with the codec, worst over all base colours, 8-bit rounding aside.
+/// The error of showing glTF's F0 = mix(dielectricF0, base, m), diffuse = base (1 - m) with the codec, worst over all
+/// base colours, 8-bit rounding aside.
 ConversionError metalnessError(float m, float dielectricF0 = kPlasticF0);
 
 /// Map A of metallic-roughness. A null picture stands for white (base) or 1 (metal).
@@ -32,7 +34,8 @@ struct AlbedoInput {
 /// `error` is widened by what the picture's metalness values do not fit.
 Image mergeAlbedoSubstance(const AlbedoInput& in, int width, int height, ConversionError& error);
 
-/// Map A of specular-glossiness: KHR_materials_pbrSpecularGlossiness, factors included. A null picture stands for white.
+/// Map A of specular-glossiness: KHR_materials_pbrSpecularGlossiness, factors included. A null picture stands for
+/// white.
 struct SpecularInput {
   const Image* diffuse = nullptr;   ///< RGB sRGB
   const Image* specular = nullptr;  ///< RGB sRGB
@@ -45,13 +48,15 @@ CodedTexel nearestTexel(const Reflectance& wanted, ConversionError& error);
 /// Diffuse and F0 of specular-glossiness: c_diff = diffuse (1 - max(specular)).
 Reflectance fromSpecular(const glm::vec3& diffuse, const glm::vec3& specular);
 
-/// Codes of dielectrics whose F0 is f0 (rgb) × the strength's alpha × the colour's RGB (sRGB): KHR_materials_specular's textures. In R of an RGBA8 image.
-/// `error` holds what grey F0 of 0.0196 to 0.25 cannot show.
-Image dielectricCodes(const glm::vec3& f0, const Image* strength, const Image* color, int width, int height, ConversionError& error);
+/// Codes of dielectrics whose F0 is f0 (rgb) × the strength's alpha × the colour's RGB (sRGB): KHR_materials_specular's
+/// textures. In R of an RGBA8 image. `error` holds what grey F0 of 0.0196 to 0.25 cannot show.
+Image dielectricCodes(const glm::vec3& f0, const Image* strength, const Image* color, int width, int height,
+                      ConversionError& error);
 
-/// Map B. `normal` null: flat. `normalScale` as glTF's. `roughness` is looked up as table[channel value], table[255] without a picture.
-Image mergeNormalRoughness(const Image* normal, float normalScale, const Image* roughness, int channel, const std::array<std::uint8_t, 256>& table, int width,
-                           int height);
+/// Map B. `normal` null: flat. `normalScale` as glTF's. `roughness` is looked up as table[channel value], table[255]
+/// without a picture.
+Image mergeNormalRoughness(const Image* normal, float normalScale, const Image* roughness, int channel,
+                           const std::array<std::uint8_t, 256>& table, int width, int height);
 
 /// Map C: R from occlusion's R (255 without), and, with `alpha`, G from its alpha. One channel without alpha, else two.
 Image mergeOcclusion(const Image* occlusion, const Image* alpha, int width, int height);

@@ -1,6 +1,7 @@
-// Map B follows Toksvig, "Mipmapping Normal Maps" (2005): the average of unit normals is shorter the more they differ, and that widens the lobe. His
-// 1/p' = 1/p + (1 - r)/r, with r the mean length and 1/p = alpha²/2 the lobe's variance of slope, is alpha'² = alpha² + 2 σ², σ² = (1 - r)/r: variances add
-// (Kaplanyan et al., "Filtering Distributions of Normals for Shading Antialiasing", 2016, section 4; Tokuyoshi and Kaplanyan 2019).
+// Map B follows Toksvig, "Mipmapping Normal Maps" (2005): the average of unit normals is shorter the more they differ,
+// and that widens the lobe. His 1/p' = 1/p + (1 - r)/r, with r the mean length and 1/p = alpha²/2 the lobe's variance
+// of slope, is alpha'² = alpha² + 2 σ², σ² = (1 - r)/r: variances add (Kaplanyan et al., "Filtering Distributions of
+// Normals for Shading Antialiasing", 2016, section 4; Tokuyoshi and Kaplanyan 2019).
 #include "material/mips.h"
 
 #include "image/convert.h"
@@ -36,9 +37,10 @@ struct AlbedoSubstanceFilter {
   }
   void pack(const float* in, Bytes out, int n, int) const {
     for (int i = 0; i < n; ++i, in += kFloats, out += 4) {
-      const Reflectance r{glm::vec3(in[6] + in[3], in[6] + in[4], in[6] + in[5]), glm::vec3(in[0] - in[3], in[1] - in[4], in[2] - in[5])};
-      // Any metal makes it a conductor: the code then runs one way along a filtered edge from paint to metal, and the shader's
-      // bilinear filter between neighbours never passes through a code that neither of them means.
+      const Reflectance r{glm::vec3(in[6] + in[3], in[6] + in[4], in[6] + in[5]),
+                          glm::vec3(in[0] - in[3], in[1] - in[4], in[2] - in[5])};
+      // Any metal makes it a conductor: the code then runs one way along a filtered edge from paint to metal, and the
+      // shader's bilinear filter between neighbours never passes through a code that neither of them means.
       const CodedTexel t = in[7] < kMetalnessStart ? projectDielectric(r) : projectConductor(r);
       for (int c = 0; c < 3; ++c) out[c] = encode(t.albedo[c]);
       out[3] = t.code;
@@ -64,21 +66,20 @@ struct NormalRoughnessFilter {
 
   void unpack(ByteRow in, float* out, int n, int) const {
     for (int i = 0; i < n; ++i, in += 4, out += kFloats) {
-      const float x = float(2 * in[0] - 255), y = float(2 * in[1] - 255), z = float(2 * in[2] - 255);  // odd: never a zero vector
-      const float k = 1 / std::sqrt(x * x + y * y + z * z);
+      const float x = float(in[0] - 128), y = float(in[1] - 128), z = float(in[2] - 128);
+      const float length2 = x * x + y * y + z * z, k = length2 > 0 ? 1 / std::sqrt(length2) : 0.0f;
       out[0] = x * k;
       out[1] = y * k;
-      out[2] = z * k;
+      out[2] = length2 > 0 ? z * k : 1.0f;
       out[3] = alpha2[in[3]];
     }
   }
   void pack(const float* in, Bytes out, int n, int) const {
     for (int i = 0; i < n; ++i, in += kFloats, out += 4) {
       const float length = std::sqrt(in[0] * in[0] + in[1] * in[1] + in[2] * in[2]);
-      const float k = length > 1e-6f ? 0.5f / length : 0.0f;
-      out[0] = unorm(0.5f + k * in[0]);
-      out[1] = unorm(0.5f + k * in[1]);
-      out[2] = length > 1e-6f ? unorm(0.5f + k * in[2]) : 255;
+      const float k = length > 1e-6f ? 127 / length : 0.0f;
+      for (int c = 0; c < 3; ++c) out[c] = std::uint8_t(128.5f + k * in[c]);
+      if (k == 0) out[2] = 255;
       out[3] = roughnessByte(in[3] + spreadFromMeanLength(length));
     }
   }
@@ -109,7 +110,8 @@ struct LinearFilter {
   const std::array<float, 256>& alpha2 = alpha2Table();
   void unpack(ByteRow in, float* out, int n, int channels) const {
     for (int i = 0; i < n; ++i, in += channels, out += kFloats)
-      for (int c = 0; c < 4; ++c) out[c] = c >= channels ? 0.0f : kRoughness && c == 1 ? alpha2[in[c]] : float(in[c]) / 255;
+      for (int c = 0; c < 4; ++c)
+        out[c] = c >= channels ? 0.0f : kRoughness && c == 1 ? alpha2[in[c]] : float(in[c]) / 255;
   }
   void pack(const float* in, Bytes out, int n, int channels) const {
     for (int i = 0; i < n; ++i, in += kFloats, out += channels)
@@ -146,7 +148,8 @@ FloatImage halve(int width, int height, Source&& source) {
   std::vector<float> sum(rowFloats);
   for (int y = 0; y < out.height; ++y) {
     std::fill(sum.begin(), sum.end(), 0.0f);
-    for (int k = 0; k < tapsY[y].count; ++k) accumulate(sum.data(), source(tapsY[y].first + k), tapsY[y].weight[k], rowFloats);
+    for (int k = 0; k < tapsY[y].count; ++k)
+      accumulate(sum.data(), source(tapsY[y].first + k), tapsY[y].weight[k], rowFloats);
     halveRow<kFloats>(sum.data(), out.row(y), tapsX);
   }
   return out;
@@ -172,7 +175,8 @@ std::vector<Image> chain(const Filter& filter, Image level0) {
       current = halve<kFloats>(w, h, [&](int y) { return above.row(y); });
     }
     Image level = makeImage(current.width, current.height, channels, PixelType::U8);
-    for (int y = 0; y < current.height; ++y) filter.pack(current.row(y), level.u8() + std::size_t(y) * current.width * channels, current.width, channels);
+    for (int y = 0; y < current.height; ++y)
+      filter.pack(current.row(y), level.u8() + std::size_t(y) * current.width * channels, current.width, channels);
     levels.push_back(std::move(level));
   }
   return levels;
@@ -188,19 +192,25 @@ std::vector<Image> single(Image image) {
 
 float spreadFromMeanLength(float length) {
   const float r = std::clamp(length, 0.0f, 1.0f);
-  if (r < 2.0f / 3) return 1;  // alpha is capped at 1
+  if (r < 2.0f / 3) return 1;                    // alpha is capped at 1
   return 2 * std::max(1 - r - 5e-7f, 0.0f) / r;  // less the floats' rounding: equal normals must not widen anything
 }
 
 std::vector<Image> buildMips(MapKind kind, Image level0) {
-  if (level0.type != PixelType::U8 || level0.width < 1 || level0.height < 1 || level0.data.size() < level0.byteSize()) return single(std::move(level0));
+  if (level0.type != PixelType::U8 || level0.width < 1 || level0.height < 1 || level0.data.size() < level0.byteSize())
+    return single(std::move(level0));
   const int channels = level0.channels;
   switch (kind) {
-    case MapKind::AlbedoSubstance: return channels == 4 ? chain(AlbedoSubstanceFilter{}, std::move(level0)) : single(std::move(level0));
-    case MapKind::NormalRoughness: return channels == 4 ? chain(NormalRoughnessFilter{}, std::move(level0)) : single(std::move(level0));
-    case MapKind::Emissive: return channels >= 3 ? chain(EmissiveFilter{}, std::move(level0)) : single(std::move(level0));
-    case MapKind::MetalRough: return channels >= 3 ? chain(LinearFilter<true>{}, std::move(level0)) : single(std::move(level0));
-    case MapKind::Occlusion: return chain(LinearFilter<false>{}, std::move(level0));
+    case MapKind::AlbedoSubstance:
+      return channels == 4 ? chain(AlbedoSubstanceFilter{}, std::move(level0)) : single(std::move(level0));
+    case MapKind::NormalRoughness:
+      return channels == 4 ? chain(NormalRoughnessFilter{}, std::move(level0)) : single(std::move(level0));
+    case MapKind::Emissive:
+      return channels >= 3 ? chain(EmissiveFilter{}, std::move(level0)) : single(std::move(level0));
+    case MapKind::MetalRough:
+      return channels >= 3 ? chain(LinearFilter<true>{}, std::move(level0)) : single(std::move(level0));
+    case MapKind::Occlusion:
+      return chain(LinearFilter<false>{}, std::move(level0));
   }
   return single(std::move(level0));
 }

@@ -43,7 +43,8 @@ float meanChannel(const Image& rgba, int channel, bool srgb) {
   const std::uint8_t* p = rgba.u8() + channel;
   const std::size_t pixels = rgba.pixelCount();
   double sum = 0;
-  for (std::size_t i = 0; i < pixels; ++i) sum += srgb ? double(image::srgbToLinearTable()[p[4 * i]]) : double(p[4 * i]) / 255;
+  for (std::size_t i = 0; i < pixels; ++i)
+    sum += srgb ? double(image::srgbToLinearTable()[p[4 * i]]) : double(p[4 * i]) / 255;
   return pixels ? float(sum / double(pixels)) : 0.0f;
 }
 

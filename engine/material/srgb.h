@@ -1,4 +1,5 @@
-// Linear light to 8-bit sRGB, inlined for the map builders' inner loops (image/convert.h has the other direction's table).
+// Linear light to 8-bit sRGB, inlined for the map builders' inner loops (image/convert.h has the other direction's
+// table).
 #pragma once
 #include <array>
 #include <cstdint>

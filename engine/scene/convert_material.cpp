@@ -20,7 +20,8 @@ std::optional<float> constantOf(PictureStore& pictures, const Slot& slot, int ch
 
 MaterialConverter::Converted MaterialConverter::convert(int index, bool vertexAlpha) {
   static const asset::Material kDefault{.name = "default"};
-  const asset::Material& in = index >= 0 && std::size_t(index) < asset_.materials.size() ? asset_.materials[std::size_t(index)] : kDefault;
+  const asset::Material& in =
+      index >= 0 && std::size_t(index) < asset_.materials.size() ? asset_.materials[std::size_t(index)] : kDefault;
   place_ = in.name.empty() ? fmt::format("material {}", index) : fmt::format("material \"{}\"", in.name);
   Material out;
   out.name = in.name;
@@ -30,7 +31,8 @@ MaterialConverter::Converted MaterialConverter::convert(int index, bool vertexAl
     specularGlossiness(in, out);
   else
     metalRough(in, out);
-  mapC(in, out, pictures_.slot(in.specularGlossiness && !in.unlit ? in.diffuseTexture : in.baseColorTexture), vertexAlpha);
+  mapC(in, out, pictures_.slot(in.specularGlossiness && !in.unlit ? in.diffuseTexture : in.baseColorTexture),
+       vertexAlpha);
   emission(in, out);
   const Slot normal = normalSlot(in, out);
   return {scene_.materials.add(std::move(out)), normal ? std::optional<UvMapping>(normal.mapping) : std::nullopt};
@@ -43,7 +45,8 @@ Slot MaterialConverter::normalSlot(const asset::Material& in, const Material& ou
 
 void MaterialConverter::metalRough(const asset::Material& in, Material& out) {
   out.albedo = checked(glm::vec3(in.baseColor), 1, "baseColorFactor");
-  const float metallic = checked(in.metallic, 0, 1, 1, "metallicFactor"), roughness = checked(in.roughness, 0, 1, 1, "roughnessFactor");
+  const float metallic = checked(in.metallic, 0, 1, 1, "metallicFactor"),
+              roughness = checked(in.roughness, 0, 1, 1, "roughnessFactor");
   const Slot base = pictures_.slot(in.baseColorTexture), normal = normalSlot(in, out);
   const Slot both = out.unlit ? Slot{} : pictures_.slot(in.metallicRoughnessTexture);
   const std::optional<float> metalConstant = metallic == 0 ? 0.0f : constantOf(pictures_, both, 2);
@@ -54,44 +57,64 @@ void MaterialConverter::metalRough(const asset::Material& in, Material& out) {
     out.roughness = roughness;
     return;
   }
-  mapA(in, out, base, metalConstant ? Slot{} : both, metalConstant ? std::optional<float>(out.unlit ? 0 : metallic * *metalConstant) : std::nullopt);
-  mapB(out, normal, in.normalTexture.strength, roughConstant ? Slot{} : both, 1, false, roughConstant ? roughness * *roughConstant : roughness);
+  mapA(in, out, base, metalConstant ? Slot{} : both,
+       metalConstant ? std::optional<float>(out.unlit ? 0 : metallic * *metalConstant) : std::nullopt);
+  mapB(out, normal, in.normalTexture.strength, roughConstant ? Slot{} : both, 1, false,
+       roughConstant ? roughness * *roughConstant : roughness);
 }
 
-// The pictures cannot be read with one fetch: map A and B are made without metal-roughness, which becomes a texture of its own.
-void MaterialConverter::keepApart(const asset::Material& in, Material& out, const Slot& base, const Slot& normal, const Slot& metalRough) {
-  warn(fmt::format("metal-roughness ({}) is read with another uv set, transform or sampler than base colour or normal map: it is kept as a texture of its own (slower)",
-                   pictures_.name(metalRough)));
+// The pictures cannot be read with one fetch: map A and B are made without metal-roughness, which becomes a texture of
+// its own.
+void MaterialConverter::keepApart(const asset::Material& in, Material& out, const Slot& base, const Slot& normal,
+                                  const Slot& metalRough) {
+  warn(
+      fmt::format("metal-roughness ({}) is read with another uv set, transform or sampler than base colour or normal "
+                  "map: it is kept as a texture of its own (slower)",
+                  pictures_.name(metalRough)));
   mapA(in, out, base, Slot{}, 0.0f);
-  mapB(out, normal, in.normalTexture.strength, Slot{}, 1, false, 0);  // alpha 0: its mips hold the normals' spread alone
-  out.metalRoughMap = shared(fmt::format("MR {} {}", metalRough.picture, keyOf(metalRough.sampler)), pictures_.name(metalRough), MapKind::MetalRough, metalRough.sampler,
-                             [&](ConversionError&) { return pictures_.rgba(metalRough); })
-                          .texture;
+  mapB(out, normal, in.normalTexture.strength, Slot{}, 1, false,
+       0);  // alpha 0: its mips hold the normals' spread alone
+  out.metalRoughMap =
+      shared(fmt::format("MR {} {}", metalRough.picture, keyOf(metalRough.sampler)), pictures_.name(metalRough),
+             MapKind::MetalRough, metalRough.sampler, [&](ConversionError&) { return pictures_.rgba(metalRough); })
+          .texture;
   out.uvMetalRough = metalRough.mapping;
 }
 
-// Map A, or the substance code alone when nothing varies. `metalness`: the constant, empty when it comes from metalRough's B.
-void MaterialConverter::mapA(const asset::Material& in, Material& out, const Slot& base, const Slot& metalRough, std::optional<float> metalness) {
+// Map A, or the substance code alone when nothing varies. `metalness`: the constant, empty when it comes from
+// metalRough's B.
+void MaterialConverter::mapA(const asset::Material& in, Material& out, const Slot& base, const Slot& metalRough,
+                             std::optional<float> metalness) {
   Dielectric dielectric = metalness && *metalness == 1 ? Dielectric{} : dielectricOf(in);
-  const Slot lead = base ? base : metalRough ? metalRough : dielectric.strength ? dielectric.strength : dielectric.color;
+  const Slot lead = base                  ? base
+                    : metalRough          ? metalRough
+                    : dielectric.strength ? dielectric.strength
+                                          : dielectric.color;
   glm::vec4 strength(1), color(1);
   dielectric.strength = compatibleOrMean(dielectric.strength, lead, "specularTexture", strength, false);
   dielectric.color = compatibleOrMean(dielectric.color, lead, "specularColorTexture", color, true);
   dielectric.f0 *= glm::vec3(color) * strength.w;
   const float f0 = (dielectric.f0.x + dielectric.f0.y + dielectric.f0.z) / 3;
   if (!lead) return substance(out, *metalness, dielectric.f0);
-  if (const char* why = dielectric.strength || dielectric.color ? nullptr : whyNoDielectric(dielectric.f0)) reportError({dielectricError(dielectric.f0), 0}, why);
+  if (const char* why = dielectric.strength || dielectric.color ? nullptr : whyNoDielectric(dielectric.f0))
+    reportError({dielectricError(dielectric.f0), 0}, why);
   const float factor = metalness ? *metalness : in.metallic;
-  const std::string key = fmt::format("A {} {} {} {} {} {} {} {} {}", base.picture, metalRough.picture, factor, dielectric.f0.x, dielectric.f0.y, dielectric.f0.z,
-                                      dielectric.strength.picture, dielectric.color.picture, keyOf(lead.sampler));
-  const Shared& made = shared(key, pictures_.name(base) + " + " + pictures_.name(metalRough), MapKind::AlbedoSubstance, lead.sampler, [&](ConversionError& error) {
-    const glm::ivec2 size = pictures_.commonSize({&base, &metalRough, &dielectric.strength, &dielectric.color});
-    Image codes;
-    if (dielectric.strength || dielectric.color)
-      codes = material::dielectricCodes(dielectric.f0, pictures_.sized(dielectric.strength, size, false), pictures_.sized(dielectric.color, size, true), size.x, size.y, error);
-    const Image* metal = pictures_.sized(metalRough, size, false);
-    return material::mergeAlbedoSubstance({pictures_.sized(base, size, true), metal, factor, f0, codes.empty() ? nullptr : &codes}, size.x, size.y, error);
-  });
+  const std::string key = fmt::format("A {} {} {} {} {} {} {} {} {}", base.picture, metalRough.picture, factor,
+                                      dielectric.f0.x, dielectric.f0.y, dielectric.f0.z, dielectric.strength.picture,
+                                      dielectric.color.picture, keyOf(lead.sampler));
+  const Shared& made = shared(
+      key, pictures_.name(base) + " + " + pictures_.name(metalRough), MapKind::AlbedoSubstance, lead.sampler,
+      [&](ConversionError& error) {
+        const glm::ivec2 size = pictures_.commonSize({&base, &metalRough, &dielectric.strength, &dielectric.color});
+        Image codes;
+        if (dielectric.strength || dielectric.color)
+          codes = material::dielectricCodes(dielectric.f0, pictures_.sized(dielectric.strength, size, false),
+                                            pictures_.sized(dielectric.color, size, true), size.x, size.y, error);
+        const Image* metal = pictures_.sized(metalRough, size, false);
+        return material::mergeAlbedoSubstance(
+            {pictures_.sized(base, size, true), metal, factor, f0, codes.empty() ? nullptr : &codes}, size.x, size.y,
+            error);
+      });
   out.mapA = made.texture;
   out.uvA = lead.mapping;
   reportError(made.error, "partly metallic texels or coloured specular");
@@ -115,54 +138,68 @@ void MaterialConverter::substance(Material& out, float metalness, const glm::vec
   reportError(error, why);
 }
 
-// Map B, or the roughness alone when nothing varies. With a normal map the factor is baked: its mips widen the lobe, and a factor on top would scale that too.
-// Without one it stays a multiplier, which is exact (alpha² of every texel scales alike), and materials that differ in it share the map.
-void MaterialConverter::mapB(Material& out, const Slot& normal, float normalScale, const Slot& rough, int channel, bool gloss, float factor) {
+// Map B, or the roughness alone when nothing varies. With a normal map the factor is baked: its mips widen the lobe,
+// and a factor on top would scale that too. Without one it stays a multiplier, which is exact (alpha² of every texel
+// scales alike), and materials that differ in it share the map.
+void MaterialConverter::mapB(Material& out, const Slot& normal, float normalScale, const Slot& rough, int channel,
+                             bool gloss, float factor) {
   out.roughness = normal ? 1 : factor;
   if (!normal && !rough) return;
   const Slot& lead = normal ? normal : rough;
   const float baked = normal || gloss ? factor : 1;
   if (gloss) out.roughness = 1;
   const float scale = checked(normalScale, -64, 64, 1, "normalTexture.scale");
-  const std::string key = fmt::format("B {} {} {} {} {} {} {}", normal.picture, normal ? scale : 1, rough.picture, channel, gloss, baked, keyOf(lead.sampler));
-  out.mapB = shared(key, pictures_.name(normal) + " + " + pictures_.name(rough), MapKind::NormalRoughness, lead.sampler, [&](ConversionError&) {
-               std::array<std::uint8_t, 256> table;  // glossiness: roughness = 1 - factor · value
-               for (int i = 0; i < 256; ++i) {
-                 const float r = gloss ? 1 - baked * float(i) / 255 : baked * float(i) / 255;
-                 table[std::size_t(i)] = std::uint8_t(std::lround(r * 255));
-               }
-               const glm::ivec2 size = pictures_.commonSize({&normal, &rough});
-               return material::mergeNormalRoughness(pictures_.sized(normal, size, false), scale, pictures_.sized(rough, size, false), channel, table, size.x, size.y);
-             }).texture;
+  const std::string key = fmt::format("B {} {} {} {} {} {} {}", normal.picture, normal ? scale : 1, rough.picture,
+                                      channel, gloss, baked, keyOf(lead.sampler));
+  out.mapB = shared(key, pictures_.name(normal) + " + " + pictures_.name(rough), MapKind::NormalRoughness, lead.sampler,
+                    [&](ConversionError&) {
+                      std::array<std::uint8_t, 256> table;  // glossiness: roughness = 1 - factor · value
+                      for (int i = 0; i < 256; ++i) {
+                        const float r = gloss ? 1 - baked * float(i) / 255 : baked * float(i) / 255;
+                        table[std::size_t(i)] = std::uint8_t(std::lround(r * 255));
+                      }
+                      const glm::ivec2 size = pictures_.commonSize({&normal, &rough});
+                      return material::mergeNormalRoughness(pictures_.sized(normal, size, false), scale,
+                                                            pictures_.sized(rough, size, false), channel, table, size.x,
+                                                            size.y);
+                    })
+                 .texture;
   out.uvB = lead.mapping;
 }
 
-// Occlusion and opacity: map C, which has one mapping. Opacity wins where they differ, for a hole in a leaf is seen sooner than its ambient shadow.
+// Occlusion and opacity: map C, which has one mapping. Opacity wins where they differ, for a hole in a leaf is seen
+// sooner than its ambient shadow.
 void MaterialConverter::mapC(const asset::Material& in, Material& out, const Slot& base, bool vertexAlpha) {
-  const float factor = checked(in.specularGlossiness && !in.unlit ? in.diffuse.a : in.baseColor.a, 0, 1, 1, "base colour alpha");
+  const float factor =
+      checked(in.specularGlossiness && !in.unlit ? in.diffuse.a : in.baseColor.a, 0, 1, 1, "base colour alpha");
   const bool asksOpacity = in.alphaMode != asset::AlphaMode::Opaque;
   const int channels = pictures_.channels(base);
   const bool inTexture = asksOpacity && (channels == 2 || channels == 4) && constantOf(pictures_, base, 3) != 1.0f;
-  out.alphaCutoff = in.alphaMode == asset::AlphaMode::Mask ? checked(in.alphaCutoff, 0, 1e6f, 0.5f, "alphaCutoff") : 0.5f;
+  out.alphaCutoff =
+      in.alphaMode == asset::AlphaMode::Mask ? checked(in.alphaCutoff, 0, 1e6f, 0.5f, "alphaCutoff") : 0.5f;
   out.opacity = asksOpacity ? factor : 1;
   out.alphaTest = asksOpacity && (inTexture || vertexAlpha || factor < out.alphaCutoff);
   if (in.alphaMode == asset::AlphaMode::Blend && (inTexture || vertexAlpha || factor < 1))
-    warn(fmt::format("alpha blending is not there yet: it is drawn {}", out.alphaTest ? "where its opacity is at least 0.5, and there opaque" : "opaque"));
+    warn(fmt::format("alpha blending is not there yet: it is drawn {}",
+                     out.alphaTest ? "where its opacity is at least 0.5, and there opaque" : "opaque"));
 
   Slot occlusion = out.unlit || in.occlusionTexture.strength == 0 ? Slot{} : pictures_.slot(in.occlusionTexture);
   if (occlusion && constantOf(pictures_, occlusion, 0) == 1.0f) occlusion = {};
   const Slot alpha = inTexture ? base : Slot{};
   if (occlusion && alpha && !occlusion.compatible(alpha)) {
-    warn(fmt::format("occlusion ({}) is read with another uv set, transform or sampler than opacity: it is left out", pictures_.name(occlusion)));
+    warn(fmt::format("occlusion ({}) is read with another uv set, transform or sampler than opacity: it is left out",
+                     pictures_.name(occlusion)));
     occlusion = {};
   }
   if (!occlusion && !alpha) return;
   const Slot& lead = alpha ? alpha : occlusion;
   out.occlusionStrength = occlusion ? checked(in.occlusionTexture.strength, 0, 1, 1, "occlusionTexture.strength") : 0;
-  out.mapC = shared(fmt::format("C {} {} {}", occlusion.picture, alpha.picture, keyOf(lead.sampler)), pictures_.name(occlusion) + " + " + pictures_.name(alpha),
-                    MapKind::Occlusion, lead.sampler, [&](ConversionError&) {
+  out.mapC = shared(fmt::format("C {} {} {}", occlusion.picture, alpha.picture, keyOf(lead.sampler)),
+                    pictures_.name(occlusion) + " + " + pictures_.name(alpha), MapKind::Occlusion, lead.sampler,
+                    [&](ConversionError&) {
                       const glm::ivec2 size = pictures_.commonSize({&occlusion, &alpha});
-                      return material::mergeOcclusion(pictures_.sized(occlusion, size, false), pictures_.sized(alpha, size, true), size.x, size.y);
+                      return material::mergeOcclusion(pictures_.sized(occlusion, size, false),
+                                                      pictures_.sized(alpha, size, true), size.x, size.y);
                     })
                  .texture;
   out.uvC = lead.mapping;
@@ -172,13 +209,14 @@ void MaterialConverter::emission(const asset::Material& in, Material& out) {
   out.emission = checked(in.emissive, 1e9f, "emissive");
   const Slot slot = pictures_.slot(in.emissiveTexture);
   if (!slot || out.emission == glm::vec3(0)) return;
-  out.emissiveMap =
-      shared(fmt::format("E {} {}", slot.picture, keyOf(slot.sampler)), pictures_.name(slot), MapKind::Emissive, slot.sampler, [&](ConversionError&) { return pictures_.rgba(slot); })
-          .texture;
+  out.emissiveMap = shared(fmt::format("E {} {}", slot.picture, keyOf(slot.sampler)), pictures_.name(slot),
+                           MapKind::Emissive, slot.sampler, [&](ConversionError&) { return pictures_.rgba(slot); })
+                        .texture;
   out.uvEmissive = slot.mapping;
 }
 
-const MaterialConverter::Shared& MaterialConverter::shared(std::string key, std::string name, MapKind kind, const Sampler& sampler,
+const MaterialConverter::Shared& MaterialConverter::shared(std::string key, std::string name, MapKind kind,
+                                                           const Sampler& sampler,
                                                            const std::function<Image(ConversionError&)>& make) {
   const auto [at, isNew] = shared_.try_emplace(std::move(key));
   if (!isNew) return at->second;

@@ -16,14 +16,18 @@ const char* whyNoDielectric(const glm::vec3& f0);
 
 class MaterialConverter {
  public:
-  /// The asset must outlive the converter. Textures and materials are added to `scene`; what does not fit goes to `report` with its error.
-  MaterialConverter(const asset::Asset& asset, Scene& scene, Report& report) : asset_(asset), scene_(scene), report_(report), pictures_(asset) {}
+  /// The asset must outlive the converter. Textures and materials are added to `scene`; what does not fit goes to
+  /// `report` with its error.
+  MaterialConverter(const asset::Asset& asset, Scene& scene, Report& report)
+      : asset_(asset), scene_(scene), report_(report), pictures_(asset) {}
 
   struct Converted {
     Id<Material> id;
-    std::optional<UvMapping> normalMap;  ///< how the normal map is read; empty without one: meshes then need no tangents
+    std::optional<UvMapping>
+        normalMap;  ///< how the normal map is read; empty without one: meshes then need no tangents
   };
-  /// Converts a material (-1: glTF's default) and adds it. `vertexAlpha`: some mesh with this material has vertex colours with alpha below 1.
+  /// Converts a material (-1: glTF's default) and adds it. `vertexAlpha`: some mesh with this material has vertex
+  /// colours with alpha below 1.
   Converted convert(int index, bool vertexAlpha);
 
  private:
@@ -35,10 +39,13 @@ class MaterialConverter {
 
   // convert_material.cpp
   void metalRough(const asset::Material& in, Material& out);
-  void keepApart(const asset::Material& in, Material& out, const Slot& base, const Slot& normal, const Slot& metalRough);
-  void mapA(const asset::Material& in, Material& out, const Slot& base, const Slot& metalRough, std::optional<float> metalness);
+  void keepApart(const asset::Material& in, Material& out, const Slot& base, const Slot& normal,
+                 const Slot& metalRough);
+  void mapA(const asset::Material& in, Material& out, const Slot& base, const Slot& metalRough,
+            std::optional<float> metalness);
   void substance(Material& out, float metalness, const glm::vec3& f0);
-  void mapB(Material& out, const Slot& normal, float normalScale, const Slot& rough, int channel, bool gloss, float factor);
+  void mapB(Material& out, const Slot& normal, float normalScale, const Slot& rough, int channel, bool gloss,
+            float factor);
   void mapC(const asset::Material& in, Material& out, const Slot& base, bool vertexAlpha);
   void emission(const asset::Material& in, Material& out);
   Slot normalSlot(const asset::Material& in, const Material& out) const;
@@ -53,7 +60,8 @@ class MaterialConverter {
   Slot compatibleOrMean(const Slot& slot, const Slot& partner, const char* what, glm::vec4& factor, bool srgb);
 
   /// The texture made earlier under this key, or a new one from `make`.
-  const Shared& shared(std::string key, std::string name, MapKind kind, const Sampler& sampler, const std::function<Image(ConversionError&)>& make);
+  const Shared& shared(std::string key, std::string name, MapKind kind, const Sampler& sampler,
+                       const std::function<Image(ConversionError&)>& make);
   float checked(float value, float low, float high, float fallback, const char* what);
   glm::vec3 checked(const glm::vec3& value, float high, const char* what);
   void warn(std::string what) { report_.warn(place_, std::move(what)); }
@@ -63,7 +71,7 @@ class MaterialConverter {
   Scene& scene_;
   Report& report_;
   PictureStore pictures_;
-  std::string place_;                    ///< of the material in work, for the report
+  std::string place_;                     ///< of the material in work, for the report
   std::map<std::string, Shared> shared_;  ///< merges made so far, by what they were made of
 };
 

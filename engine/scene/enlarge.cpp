@@ -11,8 +11,10 @@ namespace {
 
 int wrapped(int i, int n, Wrap wrap) {
   switch (wrap) {
-    case Wrap::Repeat: return (i % n + n) % n;
-    case Wrap::ClampToEdge: return std::clamp(i, 0, n - 1);
+    case Wrap::Repeat:
+      return (i % n + n) % n;
+    case Wrap::ClampToEdge:
+      return std::clamp(i, 0, n - 1);
     case Wrap::MirroredRepeat: {
       const int k = (i % (2 * n) + 2 * n) % (2 * n);
       return k < n ? k : 2 * n - 1 - k;

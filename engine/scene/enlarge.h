@@ -4,7 +4,8 @@
 
 namespace burnish::scene {
 
-/// Bilinear enlargement of an RGBA8 image to width x height, as a sampler with this wrap would see it. `srgb` interpolates RGB in linear light.
+/// Bilinear enlargement of an RGBA8 image to width x height, as a sampler with this wrap would see it. `srgb`
+/// interpolates RGB in linear light.
 Image enlarged(const Image& rgba, int width, int height, bool srgb, Wrap wrapU, Wrap wrapV);
 
 }  // namespace burnish::scene

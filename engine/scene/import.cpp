@@ -14,7 +14,8 @@ namespace {
 
 class Importer {
  public:
-  Importer(asset::Asset& asset, const Deadline& deadline, Report& report) : asset_(asset), deadline_(deadline), report_(report), converter_(asset, scene_, report) {}
+  Importer(asset::Asset& asset, const Deadline& deadline, Report& report)
+      : asset_(asset), deadline_(deadline), report_(report), converter_(asset, scene_, report) {}
 
   Result<Scene> run() {
     scene_.name = asset_.name;
@@ -32,7 +33,8 @@ class Importer {
 
   /// The index of a primitive's row in materials_: the last one is glTF's default material.
   [[nodiscard]] std::size_t rowOf(const asset::Primitive& p) const {
-    return p.material >= 0 && std::size_t(p.material) < asset_.materials.size() ? std::size_t(p.material) : asset_.materials.size();
+    return p.material >= 0 && std::size_t(p.material) < asset_.materials.size() ? std::size_t(p.material)
+                                                                                : asset_.materials.size();
   }
 
   Result<void> materials() {
@@ -41,7 +43,8 @@ class Importer {
     for (const asset::Mesh& mesh : asset_.meshes)
       for (const asset::Primitive& p : mesh.primitives) {
         needsDefault = needsDefault || rowOf(p) == asset_.materials.size();
-        if (std::any_of(p.colors.begin(), p.colors.end(), [](const glm::vec4& c) { return c.a < 1; })) vertexAlpha[rowOf(p)] = true;
+        if (std::any_of(p.colors.begin(), p.colors.end(), [](const glm::vec4& c) { return c.a < 1; }))
+          vertexAlpha[rowOf(p)] = true;
       }
     for (std::size_t i = 0; i < asset_.materials.size(); ++i) {
       materials_.push_back(converter_.convert(int(i), vertexAlpha[i]));
@@ -77,10 +80,13 @@ class Importer {
     out.colors = std::move(in.colors);
     out.indices = std::move(in.indices);
     auto good = validated(std::move(out), faults_);
-    if (!good) return fail(fmt::format("{}: /meshes/{}/primitives/{}", asset_.name, m, p), good.error().what, good.error().remedy);
+    if (!good)
+      return fail(fmt::format("{}: /meshes/{}/primitives/{}", asset_.name, m, p), good.error().what,
+                  good.error().remedy);
     if (material.normalMap && good->tangents.empty() && !good->indices.empty()) {
       if ((material.normalMap->set == 1 ? good->uv1 : good->uv0).empty())
-        report_.warn(fmt::format("mesh \"{}\"", good->name), "its material has a normal map, but it has no texture coordinates for it");
+        report_.warn(fmt::format("mesh \"{}\"", good->name),
+                     "its material has a normal map, but it has no texture coordinates for it");
       makeTangents(*good, *material.normalMap);
     }
     if (!good->indices.empty()) meshes_[m].push_back({scene_.meshes.add(std::move(*good)), material.id});
@@ -91,10 +97,12 @@ class Importer {
     std::vector<Id<Node>> ids;
     ids.reserve(asset_.nodes.size());
     for (const asset::Node& in : asset_.nodes) {
-      const Id<Node> id = scene_.nodes.add({in.name, in.parent >= 0 ? ids[std::size_t(in.parent)] : Id<Node>{}, in.local});
+      const Id<Node> id =
+          scene_.nodes.add({in.name, in.parent >= 0 ? ids[std::size_t(in.parent)] : Id<Node>{}, in.local});
       ids.push_back(id);
       if (in.mesh >= 0)
-        for (const auto& [mesh, material] : meshes_[std::size_t(in.mesh)]) scene_.instances.add({in.name.empty() ? scene_.meshes.get(mesh)->name : in.name, id, mesh, material});
+        for (const auto& [mesh, material] : meshes_[std::size_t(in.mesh)])
+          scene_.instances.add({in.name.empty() ? scene_.meshes.get(mesh)->name : in.name, id, mesh, material});
       if (in.camera >= 0) scene_.cameras.add(cameraOf(asset_.cameras[std::size_t(in.camera)], in, id));
       if (in.light >= 0) scene_.lights.add(lightOf(asset_.lights[std::size_t(in.light)], in, id));
     }
@@ -115,7 +123,9 @@ class Importer {
   static Light lightOf(const asset::Light& in, const asset::Node& node, Id<Node> id) {
     Light l;
     l.name = in.name.empty() ? node.name : in.name;
-    l.kind = in.kind == asset::Light::Kind::Directional ? LightKind::Directional : in.kind == asset::Light::Kind::Spot ? LightKind::Spot : LightKind::Point;
+    l.kind = in.kind == asset::Light::Kind::Directional ? LightKind::Directional
+             : in.kind == asset::Light::Kind::Spot      ? LightKind::Spot
+                                                        : LightKind::Point;
     l.node = id;
     l.color = glm::max(in.color, glm::vec3(0));
     l.intensity = std::max(in.intensity, 0.0f);
@@ -140,8 +150,10 @@ class Importer {
   std::vector<std::vector<Part>> meshes_;  ///< by the asset's mesh
 };
 
-/// The file's own environment. A path that is missing or leaves the folder is an error as for buffers; a picture that cannot be decoded is a warning.
-Result<void> ownEnvironment(Scene& scene, const std::filesystem::path& file, const std::string& uri, const LoadOptions& options, ImageDecoder& decoder, Report& report) {
+/// The file's own environment. A path that is missing or leaves the folder is an error as for buffers; a picture that
+/// cannot be decoded is a warning.
+Result<void> ownEnvironment(Scene& scene, const std::filesystem::path& file, const std::string& uri,
+                            const LoadOptions& options, ImageDecoder& decoder, Report& report) {
   auto bytes = core::readFileInside(file.parent_path(), uri, options.allowOutside, options.maxFileBytes);
   if (!bytes) return fail(file.filename().string() + ": extras.burnish.environment", bytes.error().message());
   if (auto made = decodeEnvironment(scene, *bytes, uri, decoder, report); !made)
@@ -151,7 +163,9 @@ Result<void> ownEnvironment(Scene& scene, const std::filesystem::path& file, con
 
 }  // namespace
 
-Result<Scene> importAsset(asset::Asset asset, const Deadline& deadline, Report& report) { return Importer(asset, deadline, report).run(); }
+Result<Scene> importAsset(asset::Asset asset, const Deadline& deadline, Report& report) {
+  return Importer(asset, deadline, report).run();
+}
 
 }  // namespace scene
 
@@ -160,13 +174,15 @@ Result<Scene> loadScene(const std::filesystem::path& file, const LoadOptions& op
   std::unique_ptr<ImageDecoder> own;
   if (!options.decoder) own = makeDecoderPool();
   ImageDecoder& decoder = options.decoder ? *options.decoder : *own;
-  auto asset = asset::readGltf(file, {.decoder = &decoder, .allowOutside = options.allowOutside, .maxFileBytes = options.maxFileBytes}, report);
+  auto asset = asset::readGltf(
+      file, {.decoder = &decoder, .allowOutside = options.allowOutside, .maxFileBytes = options.maxFileBytes}, report);
   if (!asset) return fail(asset.error());
   const std::string environment = asset->environment;
   auto made = scene::importAsset(std::move(*asset), deadline, report);
   if (!made) return made;
   if (!environment.empty())
-    if (auto read = scene::ownEnvironment(*made, file, environment, options, decoder, report); !read) return fail(read.error());
+    if (auto read = scene::ownEnvironment(*made, file, environment, options, decoder, report); !read)
+      return fail(read.error());
   return made;
 }
 

@@ -1,4 +1,5 @@
-// The pictures of an asset as map builders want them: RGBA8, enlarged to a partner's size where a merge needs it. Each is made once.
+// The pictures of an asset as map builders want them: RGBA8, enlarged to a partner's size where a merge needs it. Each
+// is made once.
 #pragma once
 #include <burnish/scene.h>
 
@@ -18,7 +19,9 @@ struct Slot {
   UvMapping mapping;
   [[nodiscard]] explicit operator bool() const { return picture >= 0; }
   /// Whether one fetch can serve both.
-  [[nodiscard]] bool compatible(const Slot& other) const { return sampler == other.sampler && mapping == other.mapping; }
+  [[nodiscard]] bool compatible(const Slot& other) const {
+    return sampler == other.sampler && mapping == other.mapping;
+  }
 };
 
 /// KHR_texture_transform as a matrix on (u, v, 1).
@@ -40,7 +43,9 @@ class PictureStore {
   /// The larger width and height of the slots that are not empty; 1x1 without any.
   [[nodiscard]] glm::ivec2 commonSize(std::initializer_list<const Slot*> slots) const;
   /// The file's own channel count (a picture without alpha has no opacity to offer).
-  [[nodiscard]] int channels(const Slot& slot) const { return slot ? asset_.pictures[std::size_t(slot.picture)].pixels.channels : 0; }
+  [[nodiscard]] int channels(const Slot& slot) const {
+    return slot ? asset_.pictures[std::size_t(slot.picture)].pixels.channels : 0;
+  }
   [[nodiscard]] std::string name(const Slot& slot) const;
 
  private:

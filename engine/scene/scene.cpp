@@ -79,7 +79,8 @@ Bounds Scene::bounds() const {
     if (b->empty()) return;
     const glm::dmat4 m = nodes.has(instance.node) ? world[instance.node.index] : glm::dmat4(1);
     for (int corner = 0; corner < 8; ++corner) {
-      const glm::dvec4 p(corner & 1 ? b->max.x : b->min.x, corner & 2 ? b->max.y : b->min.y, corner & 4 ? b->max.z : b->min.z, 1);
+      const glm::dvec4 p(corner & 1 ? b->max.x : b->min.x, corner & 2 ? b->max.y : b->min.y,
+                         corner & 4 ? b->max.z : b->min.z, 1);
       const glm::vec3 w(m * p);
       if (!std::isfinite(w.x + w.y + w.z)) continue;
       all.min = glm::min(all.min, w);

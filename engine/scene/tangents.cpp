@@ -1,10 +1,14 @@
-// The MikkTSpace basis, written from its published description: M. S. Mikkelsen, "Simulation of Wrinkled Surfaces Revisited" (2008), chapter 3, and the
-// tangent space that glTF 2.0 asks for (section 3.7.2.1). The rules:
+// The MikkTSpace basis, written from its published description: M. S. Mikkelsen, "Simulation of Wrinkled Surfaces
+// Revisited" (2008), chapter 3, and the tangent space that glTF 2.0 asks for (section 3.7.2.1). The rules:
 //  1. Corners with equal position, normal and texture coordinates are one vertex, whatever the file's indices say.
-//  2. A triangle's tangent is dP/du. Its orientation is the sign of its area in the texture; mirrored and unmirrored triangles are never mixed.
-//  3. At a vertex, triangles of one orientation that are connected by shared edges form a group and share one tangent: the mean of their tangents, each
-//     projected to the plane of the vertex normal and made unit length, weighted by the triangle's angle at the vertex in that plane.
-//  4. Triangles without area in the texture have no tangent of their own; they join a neighbouring group. Vertices in several groups are split.
+//  2. A triangle's tangent is dP/du. Its orientation is the sign of its area in the texture; mirrored and unmirrored
+//  triangles are never mixed.
+//  3. At a vertex, triangles of one orientation that are connected by shared edges form a group and share one tangent:
+//  the mean of their tangents, each
+//     projected to the plane of the vertex normal and made unit length, weighted by the triangle's angle at the vertex
+//     in that plane.
+//  4. Triangles without area in the texture have no tangent of their own; they join a neighbouring group. Vertices in
+//  several groups are split.
 #include "scene/tangents.h"
 
 #include <bit>
@@ -32,7 +36,8 @@ struct VertexKey {
 struct VertexHash {
   std::size_t operator()(const VertexKey& k) const {
     std::size_t h = 0;
-    for (const float f : {k.position.x, k.position.y, k.position.z, k.normal.x, k.normal.y, k.normal.z, k.uv.x, k.uv.y}) h = mix(h, bits(f));
+    for (const float f : {k.position.x, k.position.y, k.position.z, k.normal.x, k.normal.y, k.normal.z, k.uv.x, k.uv.y})
+      h = mix(h, bits(f));
     return h ^ (h >> 32);
   }
 };
@@ -86,7 +91,8 @@ class Builder {
     std::unordered_map<VertexKey, std::uint32_t, VertexHash> first;
     first.reserve(mesh_.positions.size());
     weld_.resize(mesh_.positions.size());
-    for (std::uint32_t i = 0; i < weld_.size(); ++i) weld_[i] = first.try_emplace({mesh_.positions[i], mesh_.normals[i], uv_[i]}, i).first->second;
+    for (std::uint32_t i = 0; i < weld_.size(); ++i)
+      weld_[i] = first.try_emplace({mesh_.positions[i], mesh_.normals[i], uv_[i]}, i).first->second;
   }
 
   void makeFaces() {
@@ -95,7 +101,8 @@ class Builder {
       const std::uint32_t* t = &mesh_.indices[3 * f];
       const glm::dvec3 d1 = glm::dvec3(mesh_.positions[t[1]]) - glm::dvec3(mesh_.positions[t[0]]);
       const glm::dvec3 d2 = glm::dvec3(mesh_.positions[t[2]]) - glm::dvec3(mesh_.positions[t[0]]);
-      const glm::dvec2 u1 = glm::dvec2(uv_[t[1]]) - glm::dvec2(uv_[t[0]]), u2 = glm::dvec2(uv_[t[2]]) - glm::dvec2(uv_[t[0]]);
+      const glm::dvec2 u1 = glm::dvec2(uv_[t[1]]) - glm::dvec2(uv_[t[0]]),
+                       u2 = glm::dvec2(uv_[t[2]]) - glm::dvec2(uv_[t[0]]);
       const double area = u1.x * u2.y - u1.y * u2.x;
       const glm::dvec3 t0 = (u2.y * d1 - u1.y * d2) * (area < 0 ? -1.0 : 1.0);  // dP/du times |area|
       const double length = glm::length(t0);
@@ -104,8 +111,8 @@ class Builder {
     }
   }
 
-  /// For each corner c of a face, the face's edge from corner c to the next: the corner that starts the same edge, run the other way, in another face.
-  /// An edge with more than two triangles pairs them in order.
+  /// For each corner c of a face, the face's edge from corner c to the next: the corner that starts the same edge, run
+  /// the other way, in another face. An edge with more than two triangles pairs them in order.
   void findNeighbours() {
     neighbour_.assign(mesh_.indices.size(), kNone);
     std::unordered_multimap<std::uint64_t, std::uint32_t> open;
@@ -162,7 +169,8 @@ class Builder {
       const std::uint32_t v = mesh_.indices[c], b = mesh_.indices[next(c)], a = mesh_.indices[next(next(c))];
       const glm::vec3 n = mesh_.normals[v];
       const glm::vec3 tangent = projected(face.tangent, n);
-      const glm::vec3 e1 = projected(mesh_.positions[b] - mesh_.positions[v], n), e2 = projected(mesh_.positions[a] - mesh_.positions[v], n);
+      const glm::vec3 e1 = projected(mesh_.positions[b] - mesh_.positions[v], n),
+                      e2 = projected(mesh_.positions[a] - mesh_.positions[v], n);
       sum_[group_[c]] += std::acos(std::clamp(glm::dot(e1, e2), -1.0f, 1.0f)) * tangent;
     }
     // What a corner without a tangent of its own group falls back on: any tangent at the same vertex.
@@ -171,14 +179,16 @@ class Builder {
   }
   /// Sums that cancel out leave rounding, which points anywhere.
   [[nodiscard]] bool hasTangent(std::uint32_t group) const { return glm::dot(sum_[group], sum_[group]) > 1e-8f; }
-  /// The unit vector along the part of `v` at right angles to `n`; zero when there is none but rounding (n is unit to 1e-7).
+  /// The unit vector along the part of `v` at right angles to `n`; zero when there is none but rounding (n is unit to
+  /// 1e-7).
   static glm::vec3 projected(const glm::vec3& v, const glm::vec3& n) {
     const glm::dvec3 p = glm::dvec3(v) - glm::dvec3(n) * glm::dot(glm::dvec3(n), glm::dvec3(v));
     const double length = glm::length(p);
     return length > 1e-5 * glm::length(glm::dvec3(v)) ? glm::vec3(p / length) : glm::vec3(0);
   }
 
-  /// glTF's bitangent w · n × t points up the texture, against v; where (u, v) turn with the triangle, n × dP/du points along v.
+  /// glTF's bitangent w · n × t points up the texture, against v; where (u, v) turn with the triangle, n × dP/du points
+  /// along v.
   [[nodiscard]] glm::vec4 tangentOf(std::uint32_t corner) const {
     std::uint32_t group = group_[corner];
     bool preserving = faces_[corner / 3].preserving;
@@ -211,7 +221,8 @@ class Builder {
       mesh_.indices[c] = v;
     }
     for (std::size_t v = 0; v < mesh_.tangents.size(); ++v)
-      if (mesh_.tangents[v].w == 0) mesh_.tangents[v] = glm::vec4(perpendicular(mesh_.normals[v]), 1);  // no triangle uses it
+      if (mesh_.tangents[v].w == 0)
+        mesh_.tangents[v] = glm::vec4(perpendicular(mesh_.normals[v]), 1);  // no triangle uses it
     return mesh_.positions.size() - before;
   }
   std::uint32_t copyVertex(std::uint32_t v) {
@@ -232,7 +243,7 @@ class Builder {
 
   Mesh& mesh_;
   std::vector<glm::vec2> uv_;
-  std::vector<std::uint32_t> weld_;       ///< vertex → first equal vertex
+  std::vector<std::uint32_t> weld_;  ///< vertex → first equal vertex
   std::vector<Face> faces_;
   std::vector<std::uint32_t> neighbour_;  ///< corner → corner
   std::vector<std::uint32_t> group_;      ///< corner → least corner of its group
@@ -244,7 +255,9 @@ class Builder {
 
 std::size_t makeTangents(Mesh& mesh, const UvMapping& mapping) {
   const std::size_t n = mesh.positions.size();
-  if (n == 0 || mesh.normals.size() != n || (mapping.set == 1 ? mesh.uv1 : mesh.uv0).size() != n || mesh.indices.size() % 3 != 0) return 0;
+  if (n == 0 || mesh.normals.size() != n || (mapping.set == 1 ? mesh.uv1 : mesh.uv0).size() != n ||
+      mesh.indices.size() % 3 != 0)
+    return 0;
   for (const std::uint32_t i : mesh.indices)
     if (i >= n) return 0;
   return Builder(mesh, mapping).build();

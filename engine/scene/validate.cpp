@@ -1,11 +1,13 @@
-// What a mesh must be before anything else sees it: sizes agree, indices are in range, every number is finite, normals are unit length.
+// What a mesh must be before anything else sees it: sizes agree, indices are in range, every number is finite, normals
+// are unit length.
+#include "scene/validate.h"
+
 #include <burnish/scene.h>
 #include <fmt/format.h>
 
 #include <cmath>
 
 #include "scene/basis.h"
-#include "scene/validate.h"
 
 namespace burnish {
 namespace {
@@ -20,27 +22,36 @@ std::string placeOf(const Mesh& mesh) { return fmt::format("mesh \"{}\"", mesh.n
 
 Result<void> checkSizes(const Mesh& mesh) {
   const std::size_t n = mesh.positions.size();
-  const std::pair<const char*, std::size_t> streams[] = {{"normals", mesh.normals.size()}, {"tangents", mesh.tangents.size()}, {"uv0", mesh.uv0.size()},
-                                                         {"uv1", mesh.uv1.size()},         {"colors", mesh.colors.size()}};
+  const std::pair<const char*, std::size_t> streams[] = {{"normals", mesh.normals.size()},
+                                                         {"tangents", mesh.tangents.size()},
+                                                         {"uv0", mesh.uv0.size()},
+                                                         {"uv1", mesh.uv1.size()},
+                                                         {"colors", mesh.colors.size()}};
   for (const auto& [name, size] : streams)
     if (size != 0 && size != n)
-      return fail(placeOf(mesh), fmt::format("{} has {} elements, positions has {}", name, size, n), "leave the stream empty or give one element for each position");
-  if (n > 0xfffffffeu) return fail(placeOf(mesh), fmt::format("positions has {} elements", n), "split the mesh: indices are 32 bits");
+      return fail(placeOf(mesh), fmt::format("{} has {} elements, positions has {}", name, size, n),
+                  "leave the stream empty or give one element for each position");
+  if (n > 0xfffffffeu)
+    return fail(placeOf(mesh), fmt::format("positions has {} elements", n), "split the mesh: indices are 32 bits");
   if (mesh.indices.size() % 3 != 0)
-    return fail(placeOf(mesh), fmt::format("indices has {} elements, not a multiple of 3", mesh.indices.size()), "give a triangle list");
+    return fail(placeOf(mesh), fmt::format("indices has {} elements, not a multiple of 3", mesh.indices.size()),
+                "give a triangle list");
   for (std::size_t i = 0; i < mesh.indices.size(); ++i)
     if (mesh.indices[i] >= n)
-      return fail(placeOf(mesh), fmt::format("indices[{}] is {}, past the last of {} positions", i, mesh.indices[i], n), "correct the index");
+      return fail(placeOf(mesh), fmt::format("indices[{}] is {}, past the last of {} positions", i, mesh.indices[i], n),
+                  "correct the index");
   return {};
 }
 
-/// The vector along a triangle's normal, its length twice the area; in double, so that huge and tiny triangles neither overflow nor vanish.
+/// The vector along a triangle's normal, its length twice the area; in double, so that huge and tiny triangles neither
+/// overflow nor vanish.
 glm::dvec3 areaNormal(const Mesh& mesh, const std::uint32_t* t) {
   const glm::dvec3 a(mesh.positions[t[0]]), b(mesh.positions[t[1]]), c(mesh.positions[t[2]]);
   return glm::cross(b - a, c - a);
 }
 
-/// Drops triangles with a non-finite corner or without area; puts the non-finite positions that are left over at the origin.
+/// Drops triangles with a non-finite corner or without area; puts the non-finite positions that are left over at the
+/// origin.
 void dropTriangles(Mesh& mesh, MeshFaults& faults) {
   std::size_t kept = 0;
   for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
@@ -76,7 +87,8 @@ void unweld(std::vector<V>& stream, const std::vector<std::uint32_t>& indices) {
   stream = std::move(out);
 }
 
-/// Face normals: every corner becomes a vertex of its own (glTF 2.0, section 3.7.2.1: without normals, flat ones are calculated).
+/// Face normals: every corner becomes a vertex of its own (glTF 2.0, section 3.7.2.1: without normals, flat ones are
+/// calculated).
 void makeFlatNormals(Mesh& mesh) {
   unweld(mesh.positions, mesh.indices);
   unweld(mesh.uv0, mesh.indices);
@@ -91,7 +103,8 @@ void makeFlatNormals(Mesh& mesh) {
   }
 }
 
-/// Unit length; zero and non-finite ones become the geometric normal, the area-weighted mean of the triangles around the vertex.
+/// Unit length; zero and non-finite ones become the geometric normal, the area-weighted mean of the triangles around
+/// the vertex.
 void mendNormals(Mesh& mesh, MeshFaults& faults) {
   std::vector<glm::dvec3> geometric;
   for (std::size_t i = 0; i < mesh.normals.size(); ++i) {
@@ -141,12 +154,13 @@ MeshFaults& MeshFaults::operator+=(const MeshFaults& o) {
 }
 
 void MeshFaults::report(const std::string& place, Report& report) const {
-  const std::pair<std::size_t, const char*> lines[] = {{brokenTriangles, "triangles with a non-finite position were dropped"},
-                                                       {flatTriangles, "triangles without area were dropped"},
-                                                       {coordinates, "non-finite texture coordinates became 0"},
-                                                       {colors, "non-finite or negative vertex colours became white"},
-                                                       {normals, "zero or non-finite normals were replaced by geometric ones"},
-                                                       {tangents, "zero or non-finite tangents were replaced by ones that follow no texture"}};
+  const std::pair<std::size_t, const char*> lines[] = {
+      {brokenTriangles, "triangles with a non-finite position were dropped"},
+      {flatTriangles, "triangles without area were dropped"},
+      {coordinates, "non-finite texture coordinates became 0"},
+      {colors, "non-finite or negative vertex colours became white"},
+      {normals, "zero or non-finite normals were replaced by geometric ones"},
+      {tangents, "zero or non-finite tangents were replaced by ones that follow no texture"}};
   for (const auto& [count, what] : lines)
     if (count) report.warn(place, fmt::format("{} {}", count, what));
 }
@@ -157,7 +171,8 @@ Result<Mesh> validated(Mesh mesh, MeshFaults& faults) {
   const auto finiteUv = [](const glm::vec2& uv) { return finite(uv); };
   mendStream(mesh.uv0, glm::vec2(0), faults.coordinates, finiteUv);
   mendStream(mesh.uv1, glm::vec2(0), faults.coordinates, finiteUv);
-  mendStream(mesh.colors, glm::vec4(1), faults.colors, [](const glm::vec4& c) { return finite(c) && c.x >= 0 && c.y >= 0 && c.z >= 0 && c.w >= 0; });
+  mendStream(mesh.colors, glm::vec4(1), faults.colors,
+             [](const glm::vec4& c) { return finite(c) && c.x >= 0 && c.y >= 0 && c.z >= 0 && c.w >= 0; });
   if (mesh.normals.empty())
     makeFlatNormals(mesh);
   else

@@ -60,7 +60,8 @@ TEST_CASE("The engine's codec is the shader's", "[material]") {
     const float s = float(i) / 510;
     const glm::vec3 albedo(0.7f, 0.3f, 0.1f);
     const DecodedSubstance d = decodeSubstance(s, albedo);
-    const glm::dvec3 f0 = shading::f64::substanceF0(s, glm::dvec3(albedo)), diffuse = shading::f64::substanceDiffuse(s, glm::dvec3(albedo));
+    const glm::dvec3 f0 = shading::f64::substanceF0(s, glm::dvec3(albedo)),
+                     diffuse = shading::f64::substanceDiffuse(s, glm::dvec3(albedo));
     for (int c = 0; c < 3; ++c) {
       CHECK(double(d.f0[c]) == Approx(f0[c]).margin(1e-6));
       CHECK(double(d.diffuse[c]) == Approx(diffuse[c]).margin(1e-6));
@@ -69,7 +70,8 @@ TEST_CASE("The engine's codec is the shader's", "[material]") {
 }
 
 namespace {
-/// F0 + diffuse along a bilinear edge from paint (code 1/3) to metal (code 1), both of grey albedo, over the true blend.
+/// F0 + diffuse along a bilinear edge from paint (code 1/3) to metal (code 1), both of grey albedo, over the true
+/// blend.
 struct Edge {
   double highest = 0, lowest = 2, mean = 0;
 };
@@ -134,7 +136,8 @@ TEST_CASE("glTF's partly metallic materials err in F0 by 0.0202 at most", "[mate
     const material::ConversionError stated = material::metalnessError(m);
     for (const float base : {0.0f, 0.02f, 0.5f, 1.0f}) {
       const DecodedSubstance d = decodeSubstance(encodeMetalness(m), glm::vec3(base));
-      const float f0 = std::abs(d.f0.x - (0.04f * (1 - m) + base * m)), diffuse = std::abs(d.diffuse.x - base * (1 - m));
+      const float f0 = std::abs(d.f0.x - (0.04f * (1 - m) + base * m)),
+                  diffuse = std::abs(d.diffuse.x - base * (1 - m));
       CHECK(f0 <= stated.f0 + 1e-6f);
       CHECK(diffuse <= stated.diffuse + 1e-6f);
       worst = std::max(worst, f0);
@@ -154,7 +157,9 @@ TEST_CASE("A projection keeps F0 + diffuse", "[material]") {
     const material::CodedTexel texel = material::projectConductor(mixed);
     const material::Reflectance shown = material::decode(texel);
     for (int c = 0; c < 3; ++c) {
-      CHECK(shown.f0[c] + shown.diffuse[c] == Approx(std::min(mixed.f0[c] + mixed.diffuse[c], 1.0f + material::codeTable()[texel.code].base)).margin(1e-5));
+      CHECK(
+          shown.f0[c] + shown.diffuse[c] ==
+          Approx(std::min(mixed.f0[c] + mixed.diffuse[c], 1.0f + material::codeTable()[texel.code].base)).margin(1e-5));
       CHECK(shown.f0[c] >= 0);
       CHECK(shown.diffuse[c] >= 0);
     }

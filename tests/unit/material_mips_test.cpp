@@ -18,7 +18,9 @@ Image randomMapA(int width, int height, unsigned seed, bool metals) {
   for (std::size_t i = 0; i < image.pixelCount(); ++i) {
     for (std::size_t c = 0; c < 3; ++c) image.u8()[4 * i + c] = std::uint8_t(rng() % 200);
     const unsigned kind = rng() % 3;
-    image.u8()[4 * i + 3] = std::uint8_t(metals && kind == 0 ? 255 : metals && kind == 1 ? 103 + rng() % 153 : rng() % 103);
+    image.u8()[4 * i + 3] = std::uint8_t(metals && kind == 0   ? 255
+                                         : metals && kind == 1 ? 103 + rng() % 153
+                                                               : rng() % 103);
   }
   return image;
 }
@@ -43,12 +45,15 @@ material::Reflectance areaMean(const Image& original, const Image& level, int x,
 }
 
 /// Half the linear distance between the sRGB codes around a value: what rounding may cost.
-float roundingOf(float linear) { return 0.5f * (linear < 0.0031f ? 12.92f : 2.275f * std::pow(std::min(linear, 1.0f), 0.5833f) + 0.15f) / 255 + 1e-4f; }
+float roundingOf(float linear) {
+  return 0.5f * (linear < 0.0031f ? 12.92f : 2.275f * std::pow(std::min(linear, 1.0f), 0.5833f) + 0.15f) / 255 + 1e-4f;
+}
 
 }  // namespace
 
 TEST_CASE("Mips of map A keep F0 + diffuse in every texel", "[material]") {
-  // 0.0018 is half a step of the code where all texels are dielectrics; with metal among them the albedo makes up for the code's rounding.
+  // 0.0018 is half a step of the code where all texels are dielectrics; with metal among them the albedo makes up for
+  // the code's rounding.
   const Image original = randomMapA(64, 64, 1, true);
   const std::vector<Image> levels = material::buildMips(MapKind::AlbedoSubstance, original);
   REQUIRE(levels.size() == 7);
@@ -71,17 +76,20 @@ TEST_CASE("Mips of dielectrics average F0 and diffuse apart", "[material]") {
       for (int x = 0; x < levels[k].width; ++x) {
         const material::Reflectance truth = areaMean(original, levels[k], x, y), shown = texel(levels[k], x, y);
         CHECK(shown.f0.x == Approx(truth.f0.x).margin(0.0018));  // half a step of the code at F0 0.25
-        for (int c = 0; c < 3; ++c) CHECK(shown.diffuse[c] == Approx(truth.diffuse[c]).margin(roundingOf(truth.diffuse[c])));
+        for (int c = 0; c < 3; ++c)
+          CHECK(shown.diffuse[c] == Approx(truth.diffuse[c]).margin(roundingOf(truth.diffuse[c])));
       }
 }
 
 TEST_CASE("Codes run one way from paint to metal in mips", "[material]") {
-  // Columns of iron and paint in shares that rise from left to right: the code must rise with them, though grey F0 up to 0.25 would also fit a gem.
+  // Columns of iron and paint in shares that rise from left to right: the code must rise with them, though grey F0 up
+  // to 0.25 would also fit a gem.
   Image image = makeImage(16, 16, 4, PixelType::U8);
   for (int y = 0; y < 16; ++y)
     for (int x = 0; x < 16; ++x) {
       const bool metal = y < x;
-      const std::uint8_t v[4] = {std::uint8_t(metal ? 190 : 120), std::uint8_t(metal ? 190 : 120), std::uint8_t(metal ? 190 : 120), std::uint8_t(metal ? 255 : 85)};
+      const std::uint8_t v[4] = {std::uint8_t(metal ? 190 : 120), std::uint8_t(metal ? 190 : 120),
+                                 std::uint8_t(metal ? 190 : 120), std::uint8_t(metal ? 255 : 85)};
       std::copy_n(v, 4, image.u8() + 4 * (y * 16 + x));
     }
   // Averages over whole columns: a 16x1 picture would come from anisotropic halving, so rows are reduced by hand here.
@@ -98,7 +106,8 @@ TEST_CASE("Codes run one way from paint to metal in mips", "[material]") {
 
 TEST_CASE("Constant maps stay constant, whatever their size", "[material]") {
   for (const auto& [w, h] : {std::pair{1, 1}, {7, 5}, {300, 1}, {1, 33}, {64, 64}, {100, 37}})
-    for (const MapKind kind : {MapKind::AlbedoSubstance, MapKind::NormalRoughness, MapKind::Emissive, MapKind::MetalRough, MapKind::Occlusion}) {
+    for (const MapKind kind : {MapKind::AlbedoSubstance, MapKind::NormalRoughness, MapKind::Emissive,
+                               MapKind::MetalRough, MapKind::Occlusion}) {
       Image image = makeImage(w, h, kind == MapKind::Occlusion ? 2 : 4, PixelType::U8);
       const std::uint8_t value[4] = {200, 90, 140, 160};
       for (std::size_t i = 0; i < image.byteSize(); ++i) image.u8()[i] = value[i % std::size_t(image.channels)];
@@ -117,7 +126,8 @@ TEST_CASE("Constant maps stay constant, whatever their size", "[material]") {
         CHECK(levels[k].width == std::max(1, levels[k - 1].width / 2));
         for (std::size_t i = 0; i < levels[k].byteSize(); ++i) {
           INFO("kind " << int(kind) << " level " << k << " byte " << i);
-          REQUIRE(std::abs(int(levels[k].u8()[i]) - int(image.u8()[i % std::size_t(image.channels)])) <= (kind == MapKind::NormalRoughness && i % 4 < 3 ? 1 : 0));
+          REQUIRE(std::abs(int(levels[k].u8()[i]) - int(image.u8()[i % std::size_t(image.channels)])) <=
+                  (kind == MapKind::NormalRoughness && i % 4 < 3 ? 1 : 0));
         }
       }
     }
@@ -168,14 +178,16 @@ TEST_CASE("Emission is averaged in linear light, roughness as alpha squared", "[
 }
 
 namespace {
-/// alpha² of the lobe that all the texels' lobes make together, by summing half vectors: each texel's normal and the lobe around it (slopes with variance
-/// alpha²/2 an axis) are sampled, and the slopes' variance about the mean direction is measured.
+/// alpha² of the lobe that all the texels' lobes make together, by summing half vectors: each texel's normal and the
+/// lobe around it (slopes with variance alpha²/2 an axis) are sampled, and the slopes' variance about the mean
+/// direction is measured.
 double integratedAlpha2(double sigma, double alpha, std::mt19937& rng) {
   std::normal_distribution<double> gauss;
   constexpr int kSamples = 400000;
   double sum = 0;
   for (int i = 0; i < kSamples; ++i) {
-    const double x = sigma * gauss(rng) + alpha / std::sqrt(2.0) * gauss(rng), y = sigma * gauss(rng) + alpha / std::sqrt(2.0) * gauss(rng);
+    const double x = sigma * gauss(rng) + alpha / std::sqrt(2.0) * gauss(rng),
+                 y = sigma * gauss(rng) + alpha / std::sqrt(2.0) * gauss(rng);
     sum += x * x + y * y;
   }
   return sum / kSamples;  // two axes of alpha²/2
@@ -190,7 +202,7 @@ TEST_CASE("Mips of map B widen the lobe by the spread of normals", "[material]")
       Image image = makeImage(256, 256, 4, PixelType::U8);
       for (std::size_t i = 0; i < image.pixelCount(); ++i) {
         const glm::vec3 n = glm::normalize(glm::vec3(sigma * gauss(rng), sigma * gauss(rng), 1));
-        for (int c = 0; c < 3; ++c) image.u8()[4 * i + std::size_t(c)] = std::uint8_t(std::lround((n[c] * 0.5f + 0.5f) * 255));
+        for (int c = 0; c < 3; ++c) image.u8()[4 * i + std::size_t(c)] = std::uint8_t(std::lround(128 + 127 * n[c]));
         image.u8()[4 * i + 3] = std::uint8_t(roughByte);
       }
       const Image last = material::buildMips(MapKind::NormalRoughness, image).back();

@@ -52,7 +52,9 @@ asset::TextureRef ref(int texture) {
   r.texture = texture;
   return r;
 }
-const std::uint8_t* pixel(const Image& image, int x, int y) { return image.u8() + std::size_t(image.channels) * (std::size_t(y) * std::size_t(image.width) + std::size_t(x)); }
+const std::uint8_t* pixel(const Image& image, int x, int y) {
+  return image.u8() + std::size_t(image.channels) * (std::size_t(y) * std::size_t(image.width) + std::size_t(x));
+}
 
 }  // namespace
 
@@ -115,6 +117,23 @@ TEST_CASE("Base colour, metal-roughness, normal and occlusion merge into three m
   CHECK(!out.metalRoughMap);
 }
 
+TEST_CASE("Normal scale is baked and leaves flat normals flat", "[import]") {
+  World w;
+  asset::Material m;
+  Image normals = solid(4, {128, 128, 255});
+  const std::uint8_t tilted[3] = {204, 128, 230};  // slope 76/102
+  std::copy_n(tilted, 3, normals.u8());
+  m.normalTexture = ref(w.picture(std::move(normals)));
+  m.normalTexture.strength = 2;
+  const Material& out = w.convert(m);
+  const std::uint8_t* n = pixel(w.image(out.mapB), 0, 0);
+  CHECK(float(n[0] - 128) / float(n[2] - 128) == Approx(2 * 76.0 / 102).epsilon(0.02));
+  CHECK(std::hypot(n[0] - 128, n[2] - 128) == Approx(127).margin(1));
+  const std::uint8_t* flat = pixel(w.image(out.mapB), 2, 2);
+  CHECK(int(flat[0]) == 128);
+  CHECK(int(flat[2]) == 255);
+}
+
 TEST_CASE("Materials that ask for the same merge share it", "[import]") {
   World w;
   asset::Material m;
@@ -128,7 +147,8 @@ TEST_CASE("Materials that ask for the same merge share it", "[import]") {
     a.materials.push_back(m);
   }
   scene::MaterialConverter converter(a, w.scene, w.report);
-  const Material first = *w.scene.materials.get(converter.convert(0, false).id), last = *w.scene.materials.get(converter.convert(2, false).id);
+  const Material first = *w.scene.materials.get(converter.convert(0, false).id),
+                 last = *w.scene.materials.get(converter.convert(2, false).id);
   CHECK(first.mapA == last.mapA);
   CHECK(first.mapB == last.mapB);  // no normal map: the roughness factor stays a multiplier
   CHECK(last.roughness == 0.7f);
@@ -249,7 +269,9 @@ TEST_CASE("Index of refraction and specular", "[import]") {
   m.ior = 1.5f;
   m.specular = 0.2f;
   CHECK(w.convert(m).substance == Approx(0.4f));
-  CHECK(w.warned("material \"dull\": its dielectric F0 is under water's 0.0196, the least that a surface in air has: reflectance is off by up to 0.0116"));
+  CHECK(
+      w.warned("material \"dull\": its dielectric F0 is under water's 0.0196, the least that a surface in air has: "
+               "reflectance is off by up to 0.0116"));
   m.name = "tinted";
   m.specular = 1;
   m.specularColor = {1, 0.5f, 0.75f};

@@ -1,4 +1,5 @@
-// Whole files through loadScene. The models are the Khronos samples in ../shared/data, used where they are there; one file is made here.
+// Whole files through loadScene. The models are the Khronos samples in ../shared/data, used where they are there; one
+// file is made here.
 #include <burnish/scene.h>
 
 #include <catch2/catch.hpp>
@@ -19,7 +20,8 @@ class FakeDecoder : public ImageDecoder {
  public:
   Result<Image> decode(std::span<const std::byte> file, std::string_view, const DecodeLimits&) override {
     Image image = makeImage(8, 4, 4, PixelType::U8);
-    for (std::size_t i = 0; i < image.byteSize(); ++i) image.u8()[i] = std::uint8_t(std::to_integer<unsigned>(file[i % file.size()]) + 37 * i);
+    for (std::size_t i = 0; i < image.byteSize(); ++i)
+      image.u8()[i] = std::uint8_t(std::to_integer<unsigned>(file[i % file.size()]) + 37 * i);
     return image;
   }
 };
@@ -63,7 +65,8 @@ struct Folder {
 
 /// One triangle, positions in a data URI.
 std::string triangleFile(const std::string& extras) {
-  return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0])" + extras + R"(}],"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+  return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0])" + extras +
+         R"(}],"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
 "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}],"bufferViews":[{"buffer":0,"byteLength":36}],
 "buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})";
 }
@@ -124,7 +127,8 @@ TEST_CASE("Every sample model that is there loads", "[scene]") {
 
 TEST_CASE("Tangents agree with the ones that sample models bring", "[tangent]") {
   FakeDecoder decoder;
-  for (const char* name : {"gltf/NormalTangentMirrorTest/NormalTangentMirrorTest.glb", "gltf/WaterBottle/WaterBottle.gltf", "gltf/LightsPunctualLamp/LightsPunctualLamp.gltf"}) {
+  for (const char* name : {"gltf/NormalTangentMirrorTest/NormalTangentMirrorTest.glb",
+                           "gltf/WaterBottle/WaterBottle.gltf", "gltf/LightsPunctualLamp/LightsPunctualLamp.gltf"}) {
     if (!fs::exists(shared(name))) continue;
     Report report;
     const auto s = loadScene(shared(name), {.decoder = &decoder}, report);
@@ -142,7 +146,8 @@ TEST_CASE("Tangents agree with the ones that sample models bring", "[tangent]") 
         // The file's tangent in the plane of its normal, which is where a shader uses it.
         const glm::vec3 n = file.normals[file.indices[c]], flat = glm::vec3(a) - n * glm::dot(n, glm::vec3(a));
         if (glm::length(flat) < 0.1f) continue;
-        const double angle = glm::degrees(std::acos(std::clamp(double(glm::dot(glm::normalize(flat), glm::vec3(b))), -1.0, 1.0)));
+        const double angle =
+            glm::degrees(std::acos(std::clamp(double(glm::dot(glm::normalize(flat), glm::vec3(b))), -1.0, 1.0)));
         ++corners;
         sum += angle;
         worst = std::max(worst, angle);
@@ -151,8 +156,10 @@ TEST_CASE("Tangents agree with the ones that sample models bring", "[tangent]") 
       }
     });
     REQUIRE(corners > 0);
-    INFO(name << ": " << corners << " corners, mean " << sum / double(corners) << " deg, worst " << worst << " deg, " << flipped << " of other handedness");
-    // The mirror test was made with mikktspace itself; the other two with other tools, which weigh and split a little differently.
+    INFO(name << ": " << corners << " corners, mean " << sum / double(corners) << " deg, worst " << worst << " deg, "
+              << flipped << " of other handedness");
+    // The mirror test was made with mikktspace itself; the other two with other tools, which weigh and split a little
+    // differently.
     const bool reference = std::string_view(name).find("Mirror") != std::string_view::npos;
     CHECK(flipped == 0);
     if (reference) CHECK(worst < 0.1);

@@ -145,7 +145,8 @@ TEST_CASE("Validation drops what cannot be drawn and says so", "[scene]") {
   Mesh m = triangle();
   m.positions.push_back({kNan, 0, 0});
   m.normals.push_back({0, 0, 1});
-  for (const std::uint32_t i : {0u, 1u, 3u, 0u, 0u, 1u}) m.indices.push_back(i);  // one with a NaN corner, one without area
+  for (const std::uint32_t i : {0u, 1u, 3u, 0u, 0u, 1u})
+    m.indices.push_back(i);  // one with a NaN corner, one without area
   const auto r = validated(m, report);
   REQUIRE(r);
   CHECK(r->indices == std::vector<std::uint32_t>{0, 1, 2});

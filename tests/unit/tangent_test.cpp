@@ -47,7 +47,8 @@ Mesh sphere(int rings, int segments) {
   Mesh m;
   for (int r = 0; r <= rings; ++r)
     for (int s = 0; s <= segments; ++s) {
-      const float theta = float(M_PI) * float(r) / float(rings), phi = 2 * float(M_PI) * float(s % segments) / float(segments);
+      const float theta = float(M_PI) * float(r) / float(rings),
+                  phi = 2 * float(M_PI) * float(s % segments) / float(segments);
       const glm::vec3 p(std::sin(theta) * std::sin(phi), std::cos(theta), std::sin(theta) * std::cos(phi));
       m.positions.push_back(p);
       m.normals.push_back(p);
@@ -76,7 +77,8 @@ TEST_CASE("A quad's tangent follows u, its bitangent points up the texture", "[t
 }
 
 TEST_CASE("Mirrored texture coordinates keep their handedness and are never mixed", "[tangent]") {
-  // A butterfly: two quads that meet at x = 1 with the same position, normal and uv on the shared edge, the second one mirrored.
+  // A butterfly: two quads that meet at x = 1 with the same position, normal and uv on the shared edge, the second one
+  // mirrored.
   Mesh m = quad();
   append(m, quad(true, 1));
   m.indices = {0, 1, 2, 0, 2, 3, 1, 5, 6, 1, 6, 2};  // welded: the shared vertices have uv x = 1 in both
@@ -124,7 +126,8 @@ TEST_CASE("A sphere's tangents run around it", "[tangent]") {
 }
 
 TEST_CASE("Angles weigh tangents, not triangle counts", "[tangent]") {
-  // A fan around the origin: the half x > 0 is one big triangle pair, the half x < 0 many slivers, with shear that differs between the halves.
+  // A fan around the origin: the half x > 0 is one big triangle pair, the half x < 0 many slivers, with shear that
+  // differs between the halves.
   Mesh m;
   m.positions.push_back({0, 0, 0});
   m.uv0.push_back({0, 0});
@@ -134,7 +137,8 @@ TEST_CASE("Angles weigh tangents, not triangle counts", "[tangent]") {
   for (const float degrees : angles) {
     const float a = glm::radians(degrees), x = std::cos(a), y = std::sin(a);
     m.positions.push_back({x, y, 0});
-    m.uv0.push_back(x < -1e-6f ? glm::vec2(x + 0.5f * y, -y) : glm::vec2(x, -y));  // left: dP/du still +x after the shear, dP/dv differs
+    m.uv0.push_back(x < -1e-6f ? glm::vec2(x + 0.5f * y, -y)
+                               : glm::vec2(x, -y));  // left: dP/du still +x after the shear, dP/dv differs
   }
   m.normals.assign(m.positions.size(), {0, 0, 1});
   for (std::uint32_t i = 1; i + 1 < m.positions.size(); ++i) {
@@ -150,7 +154,8 @@ TEST_CASE("Angles weigh tangents, not triangle counts", "[tangent]") {
     const glm::vec3 d1 = m.positions[m.indices[t + 1]], d2 = m.positions[m.indices[t + 2]];
     const glm::vec2 u1 = m.uv0[m.indices[t + 1]], u2 = m.uv0[m.indices[t + 2]];
     const float area = u1.x * u2.y - u1.y * u2.x;
-    expected += std::acos(glm::dot(glm::normalize(d1), glm::normalize(d2))) * glm::normalize((u2.y * d1 - u1.y * d2) * (area < 0 ? -1.0f : 1.0f));
+    expected += std::acos(glm::dot(glm::normalize(d1), glm::normalize(d2))) *
+                glm::normalize((u2.y * d1 - u1.y * d2) * (area < 0 ? -1.0f : 1.0f));
   }
   expected = glm::normalize(expected);
   CHECK(glm::dot(expected, glm::vec3(m.tangents[m.indices[0]])) > 0.99999f);

@@ -13,7 +13,7 @@ namespace burnish {
 /// How the texels are to be read and their mip levels made (docs/shading.md, sections 1 and 3).
 enum class MapKind : std::uint8_t {
   AlbedoSubstance,  ///< map A: RGB sRGB albedo, A substance code. Mips average F0 and diffuse and encode again.
-  NormalRoughness,  ///< map B: RGB tangent normal (0.5 + 0.5 n), A perceptual roughness. Mips widen roughness by the normals' spread.
+  NormalRoughness,  ///< map B: RGB tangent normal, (byte - 128) / 127 so that flat is exact, A perceptual roughness. Mips widen roughness by the normals' spread.
   Occlusion,        ///< map C: R baked ambient occlusion (linear), G opacity (linear)
   Emissive,         ///< RGB sRGB
   MetalRough,       ///< glTF metal-roughness kept apart: G roughness, B metalness (linear); only for materials whose maps cannot be merged: map A's code is then unused and map B's alpha holds
