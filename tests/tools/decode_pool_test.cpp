@@ -189,7 +189,9 @@ TEST_CASE("A worker's memory is limited", "[decode][pool]") {
   auto answer = pool->decode(makeHdr("+Y 2500 +X 2500", 2500 * 2500, [](int) { return 0x80808080u; }),
                              "large.hdr");  // 75 MB at once
   REQUIRE_FALSE(answer);
+#ifndef __SANITIZE_ADDRESS__  // which ends the process instead of throwing bad_alloc
   CHECK(answer.error().message().find("memory") != std::string::npos);
+#endif
   auto next = pool->decode(smallPicture(), "next");
   CHECK((next ? "" : next.error().message()) == "");
 }
@@ -283,7 +285,11 @@ TEST_CASE("A helper inherits no file of the program, and can open none", "[decod
       return at == std::string::npos ? -1L : std::strtol(text.c_str() + at + std::strlen(name), nullptr, 10);
     };
     CHECK(soft("Max file size") == 0);
+#ifdef __SANITIZE_ADDRESS__
+    CHECK(soft("Max open files") == 12);  // the sanitizers' own checks open pipes
+#else
     CHECK(soft("Max open files") == 4);
+#endif
     CHECK(soft("Max core file size") == 0);
     CHECK(soft("Max address space") > 0);
     CHECK(soft("Max cpu time") > 0);

@@ -25,6 +25,11 @@ using namespace burnish;
 using namespace burnish::image;
 
 constexpr int kWorkerSocket = 0, kWorkerMemory = 3;
+#ifdef __SANITIZE_ADDRESS__
+constexpr rlim_t kSpareFiles = 8;  // the sanitizers' own checks open pipes
+#else
+constexpr rlim_t kSpareFiles = 0;
+#endif
 
 template <class T>
 bool sendMessage(int socket, const T& message) {
@@ -62,7 +67,7 @@ void confineWorker(std::uint64_t memoryBytes) {
   const rlim_t space = addressSpace() + memoryBytes;
   limit(RLIMIT_AS, space, space);
   limit(RLIMIT_FSIZE, 0, 0);
-  limit(RLIMIT_NOFILE, kWorkerMemory + 1, kWorkerMemory + 1);
+  limit(RLIMIT_NOFILE, kWorkerMemory + 1 + kSpareFiles, kWorkerMemory + 1 + kSpareFiles);
 }
 
 /// The soft limit moves along with each picture: SIGXCPU ends a worker that nobody waits for any more.
