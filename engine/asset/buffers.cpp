@@ -8,7 +8,8 @@
 namespace burnish::asset {
 namespace {
 
-// A buffer's file may be longer than byteLength (glTF 2.0, section 3.6.1.1), but not by any amount: it would be read in vain.
+// A buffer's file may be longer than byteLength (glTF 2.0, section 3.6.1.1), but not by any amount: it would be read in
+// vain.
 constexpr std::uint64_t kTail = 16 * 1024 * 1024;
 
 void keep(Check& check, Buffer& b, const std::string& path) {
@@ -34,7 +35,8 @@ void loadData(Check& check, Buffer& b, const std::string& path) {
   auto data = decodeDataUri(*b.uri);
   if (!data) return check.fail(path + "/uri", data.error().what);
   if (data->mediaType != "application/octet-stream" && data->mediaType != "application/gltf-buffer")
-    return check.fail(path + "/uri", fmt::format("media type '{}' is not that of a buffer", data->mediaType), "use application/octet-stream");
+    return check.fail(path + "/uri", fmt::format("media type '{}' is not that of a buffer", data->mediaType),
+                      "use application/octet-stream");
   b.owned = std::move(data->bytes);
   keep(check, b, path);
 }
@@ -43,7 +45,8 @@ void loadChunk(Check& check, Buffer& b, const Source& source, const std::string&
   const auto chunk = source.glbChunk;
   if (!chunk) return check.fail(path, "the file has no binary chunk for this buffer");
   if (chunk->size() < b.byteLength)
-    return check.fail(path, fmt::format("byteLength is {}, the binary chunk has {} bytes", b.byteLength, chunk->size()));
+    return check.fail(path,
+                      fmt::format("byteLength is {}, the binary chunk has {} bytes", b.byteLength, chunk->size()));
   if (chunk->size() > b.byteLength + 3)
     check.warn(path, fmt::format("the binary chunk is {} bytes longer than the buffer", chunk->size() - b.byteLength));
   b.bytes = chunk->first(b.byteLength);
@@ -61,9 +64,15 @@ void loadBuffers(Check& check, Document& doc, Source& source) {
       continue;  // a placeholder; whoever needs its data says so
     }
     switch (uriKind(*b.uri)) {
-      case UriKind::Data: loadData(check, b, path); break;
-      case UriKind::Relative: loadFile(check, b, source, path); break;
-      case UriKind::Invalid: check.fail(path + "/uri", fmt::format("'{}' is no URI", b.uri->substr(0, 80))); break;
+      case UriKind::Data:
+        loadData(check, b, path);
+        break;
+      case UriKind::Relative:
+        loadFile(check, b, source, path);
+        break;
+      case UriKind::Invalid:
+        check.fail(path + "/uri", fmt::format("'{}' is no URI", b.uri->substr(0, 80)));
+        break;
       case UriKind::Remote:
         if (b.used || !b.uri->starts_with("http"))
           loadFile(check, b, source, path);  // refused there

@@ -12,7 +12,8 @@ struct Source {
   std::optional<std::span<const std::byte>> glbChunk;  ///< buffer 0 without a uri
 };
 
-/// Fills Buffer::bytes of every buffer. Buffers that cannot be read are faults at their path, except remote ones that nothing uses (a warning).
+/// Fills Buffer::bytes of every buffer. Buffers that cannot be read are faults at their path, except remote ones that
+/// nothing uses (a warning).
 void loadBuffers(Check& check, Document& doc, Source& source);
 
 /// Bytes of the buffer view, or none when its buffer has no data.

@@ -20,10 +20,12 @@ struct Builder {
 const Accessor& accessorAt(const Builder& b, int index) { return b.doc.accessors[std::size_t(index)]; }
 
 // The indices as stored; without an accessor 0, 1, 2, ... Each is checked against the number of vertices.
-std::vector<std::uint32_t> readIndices(Builder& b, const PrimitiveSource& p, std::uint64_t vertices, const std::string& path) {
+std::vector<std::uint32_t> readIndices(Builder& b, const PrimitiveSource& p, std::uint64_t vertices,
+                                       const std::string& path) {
   const std::uint64_t count = p.indices < 0 ? vertices : accessorAt(b, p.indices).count;
   if (count * 12 > b.bytesLeft) {
-    b.check.fail(path, "the primitives stand for far more data than the file holds", "share meshes between nodes, not data between meshes");
+    b.check.fail(path, "the primitives stand for far more data than the file holds",
+                 "share meshes between nodes, not data between meshes");
     return {};
   }
   b.bytesLeft -= count * 12;
@@ -46,7 +48,8 @@ std::vector<std::uint32_t> readIndices(Builder& b, const PrimitiveSource& p, std
   });
   if (!bad) return out;
   const char* why = badValue == restart ? " (the primitive restart value, which glTF forbids)" : "";
-  b.check.fail(path + "/indices", fmt::format("element {} is {}, the primitive has {} vertices{}", *bad, badValue, vertices, why));
+  b.check.fail(path + "/indices",
+               fmt::format("element {} is {}, the primitive has {} vertices{}", *bad, badValue, vertices, why));
   return {};
 }
 
@@ -65,7 +68,8 @@ std::vector<std::uint32_t> toTriangles(const std::vector<std::uint32_t>& v, int 
   return out;
 }
 
-// Many writers let all primitives share one large vertex buffer: where few of its vertices are used, only those are taken.
+// Many writers let all primitives share one large vertex buffer: where few of its vertices are used, only those are
+// taken.
 std::vector<std::uint32_t> compact(std::vector<std::uint32_t>& indices, std::uint64_t vertices) {
   std::vector<std::uint32_t> used;
   if (indices.size() >= vertices / 2) return used;
@@ -90,7 +94,8 @@ struct Gather {
     const std::uint64_t count = used.empty() ? vertices : used.size();
     if (accessor < 0 || !b.check.ok()) return out;
     if (count * sizeof(V) > b.bytesLeft) {
-      b.check.fail(path, "the primitives stand for far more data than the file holds", "share meshes between nodes, not data between meshes");
+      b.check.fail(path, "the primitives stand for far more data than the file holds",
+                   "share meshes between nodes, not data between meshes");
       return out;
     }
     b.bytesLeft -= count * sizeof(V);
@@ -124,11 +129,14 @@ void mendTangents(Check& check, std::vector<glm::vec4>& tangents, const std::str
     bad = bad || std::abs(std::abs(t.w) - 1) > 0.01f;
     t.w = t.w < 0 ? -1.0f : 1.0f;
   }
-  if (bad) check.warn(path + "/attributes/TANGENT", "tangents whose w is neither 1 nor -1 take the sign that is nearer");
+  if (bad)
+    check.warn(path + "/attributes/TANGENT", "tangents whose w is neither 1 nor -1 take the sign that is nearer");
 }
 
 bool dataMissing(const Builder& b, const PrimitiveSource& p) {
-  const auto missing = [&](int accessor) { return accessor >= 0 && !Elements(b.doc, accessorAt(b, accessor)).available(); };
+  const auto missing = [&](int accessor) {
+    return accessor >= 0 && !Elements(b.doc, accessorAt(b, accessor)).available();
+  };
   for (const char* semantic : {"POSITION", "NORMAL", "TANGENT", "TEXCOORD_0", "TEXCOORD_1", "COLOR_0"})
     if (missing(p.find(semantic))) return true;
   return missing(p.indices);
@@ -137,14 +145,18 @@ bool dataMissing(const Builder& b, const PrimitiveSource& p) {
 // What the material asks of the primitive, and what the primitive brings in vain.
 void warnOfAttributes(const Builder& b, const PrimitiveSource& p, const std::string& path) {
   for (const Attribute& at : p.attributes)
-    if ((at.semantic.starts_with("TEXCOORD_") && at.semantic != "TEXCOORD_0" && at.semantic != "TEXCOORD_1") || (at.semantic.starts_with("COLOR_") && at.semantic != "COLOR_0"))
-      b.check.warn(path + "/attributes/" + at.semantic, fmt::format("attribute {} is not supported and ignored", at.semantic));
+    if ((at.semantic.starts_with("TEXCOORD_") && at.semantic != "TEXCOORD_0" && at.semantic != "TEXCOORD_1") ||
+        (at.semantic.starts_with("COLOR_") && at.semantic != "COLOR_0"))
+      b.check.warn(path + "/attributes/" + at.semantic,
+                   fmt::format("attribute {} is not supported and ignored", at.semantic));
   if (p.material < 0) return;
   const Material& m = b.doc.materials[std::size_t(p.material)];
-  for (const TextureRef* t : {&m.baseColorTexture, &m.metallicRoughnessTexture, &m.normalTexture, &m.occlusionTexture, &m.emissiveTexture,
-                              &m.specularTexture, &m.specularColorTexture, &m.diffuseTexture, &m.specularGlossinessTexture})
+  for (const TextureRef* t :
+       {&m.baseColorTexture, &m.metallicRoughnessTexture, &m.normalTexture, &m.occlusionTexture, &m.emissiveTexture,
+        &m.specularTexture, &m.specularColorTexture, &m.diffuseTexture, &m.specularGlossinessTexture})
     if (*t && p.find(t->uvSet ? "TEXCOORD_1" : "TEXCOORD_0") < 0)
-      b.check.warn(path + "/material", fmt::format("the material's textures need TEXCOORD_{}, which the primitive lacks", t->uvSet));
+      b.check.warn(path + "/material",
+                   fmt::format("the material's textures need TEXCOORD_{}, which the primitive lacks", t->uvSet));
 }
 
 void buildPrimitive(Builder& b, const PrimitiveSource& p, const std::string& path, Mesh& mesh) {
@@ -154,8 +166,10 @@ void buildPrimitive(Builder& b, const PrimitiveSource& p, const std::string& pat
   const std::uint64_t vertices = accessorAt(b, positions).count;
   std::vector<std::uint32_t> indices = readIndices(b, p, vertices, path);
   if (!b.check.ok()) return;
-  if (p.mode < Triangles) return b.check.warn(path + "/mode", "points and lines are not supported: the primitive is left out");
-  if (p.mode == Triangles && indices.size() % 3) b.check.warn(path, "the number of indices is no multiple of 3: the rest is left out");
+  if (p.mode < Triangles)
+    return b.check.warn(path + "/mode", "points and lines are not supported: the primitive is left out");
+  if (p.mode == Triangles && indices.size() % 3)
+    b.check.warn(path, "the number of indices is no multiple of 3: the rest is left out");
   Primitive out;
   out.material = p.material;
   out.indices = toTriangles(indices, p.mode);
@@ -178,7 +192,7 @@ void buildPrimitive(Builder& b, const PrimitiveSource& p, const std::string& pat
 }  // namespace
 
 std::vector<Mesh> buildMeshes(Check& check, const Document& doc, std::uint64_t sourceBytes) {
-  Builder b{check, doc, (std::uint64_t(512) << 20) + 64 * sourceBytes};
+  Builder b{check, doc, (std::uint64_t(128) << 20) + 64 * sourceBytes};
   std::vector<Mesh> meshes(doc.meshes.size());
   for (std::size_t m = 0; m < meshes.size(); ++m) {
     meshes[m].name = doc.meshes[m].name;

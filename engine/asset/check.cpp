@@ -8,8 +8,8 @@
 namespace burnish::asset {
 namespace {
 
-constexpr const char* kTableNames[] = {"accessor", "buffer", "bufferView", "camera",  "image", "material", "mesh",
-                                       "node",     "sampler", "scene",     "skin",    "texture", "light"};
+constexpr const char* kTableNames[] = {"accessor", "buffer",  "bufferView", "camera", "image",   "material", "mesh",
+                                       "node",     "sampler", "scene",      "skin",   "texture", "light"};
 
 std::string quote(const Json& v) {
   std::string text = v.is_structured() ? (v.is_array() ? "an array" : "an object")
@@ -118,7 +118,8 @@ double Check::numberValue(const At& at, const Range& range) {
   if (v < range.min && v >= range.min - kRounding * std::abs(range.min)) v = range.min;
   if (v < range.min || v > range.max || !std::isfinite(v) || (range.aboveMin && v == range.min)) {
     constexpr double kLargest = std::numeric_limits<float>::max();
-    const std::string low = range.min <= -kLargest ? "" : fmt::format(", {} {}", range.aboveMin ? "above" : "at least", range.min);
+    const std::string low =
+        range.min <= -kLargest ? "" : fmt::format(", {} {}", range.aboveMin ? "above" : "at least", range.min);
     const std::string high = range.max >= kLargest ? "" : fmt::format(", at most {}", range.max);
     fail(at, fmt::format("{} is out of range (a finite float{}{})", quote(*at), low, high));
     return 0;
@@ -145,8 +146,8 @@ std::uint64_t Check::integerValue(const At& at, std::uint64_t min, std::uint64_t
   return std::uint64_t(*v);
 }
 
-std::uint64_t Check::integer(const At& at, const char* key, std::uint64_t fallback, std::uint64_t min, std::uint64_t max,
-                             Need need) {
+std::uint64_t Check::integer(const At& at, const char* key, std::uint64_t fallback, std::uint64_t min,
+                             std::uint64_t max, Need need) {
   const Json* v = member(at, key, need);
   return v ? integerValue(At(at, key, *v), min, max) : fallback;
 }
@@ -195,8 +196,7 @@ std::vector<int> Check::references(const At& at, const char* key, Table table, N
   std::vector<int> sorted = out;
   std::sort(sorted.begin(), sorted.end());
   const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
-  if (twice != sorted.end())
-    fail(here, fmt::format("{} {} is listed twice", kTableNames[std::size_t(table)], *twice));
+  if (twice != sorted.end()) fail(here, fmt::format("{} {} is listed twice", kTableNames[std::size_t(table)], *twice));
   return out;
 }
 

@@ -1,5 +1,6 @@
-// Typed, checked access to the JSON of a glTF file. The first fault is kept, with the JSON path of the value at fault; from then on reads give defaults and
-// loops end, so that the parsing code reads like the specification and carries no error handling of its own.
+// Typed, checked access to the JSON of a glTF file. The first fault is kept, with the JSON path of the value at fault;
+// from then on reads give defaults and loops end, so that the parsing code reads like the specification and carries no
+// error handling of its own.
 #pragma once
 #include <array>
 #include <initializer_list>
@@ -12,7 +13,8 @@
 
 namespace burnish::asset {
 
-/// A JSON value and the way to it. Parents must outlive their children (all of them live on the stack of the function that walks).
+/// A JSON value and the way to it. Parents must outlive their children (all of them live on the stack of the function
+/// that walks).
 class At {
  public:
   explicit At(const Json& root) : value_(&root) {}
@@ -45,7 +47,20 @@ enum class Need : bool { Optional, Required };
 
 /// The arrays that references point into.
 enum class Table : std::uint8_t {
-  Accessors, Buffers, BufferViews, Cameras, Images, Materials, Meshes, Nodes, Samplers, Scenes, Skins, Textures, Lights, Count
+  Accessors,
+  Buffers,
+  BufferViews,
+  Cameras,
+  Images,
+  Materials,
+  Meshes,
+  Nodes,
+  Samplers,
+  Scenes,
+  Skins,
+  Textures,
+  Lights,
+  Count
 };
 
 class Check {
@@ -66,21 +81,25 @@ class Check {
   void fail(Error e) {
     if (ok()) error_ = std::move(e);
   }
-  /// Same texts are one warning that names the first place and counts the others: a file decides how many faults it has, not how long the report is.
+  /// Same texts are one warning that names the first place and counts the others: a file decides how many faults it
+  /// has, not how long the report is.
   void warn(const std::string& path, const std::string& what);
 
   // Reads of members of an object. A missing required member, a wrong type or a value out of range is a fault.
   const Json* member(const At& object, const char* key, Need need = Need::Optional);
   const Json* object(const At& object, const char* key, Need need = Need::Optional);
   const Json* array(const At& object, const char* key, Need need = Need::Optional);  ///< not empty
-  double number(const At& object, const char* key, double fallback, const Range& range = {}, Need need = Need::Optional);
-  std::uint64_t integer(const At& object, const char* key, std::uint64_t fallback, std::uint64_t min = 0, std::uint64_t max = kMaxInteger,
-                        Need need = Need::Optional);
+  double number(const At& object, const char* key, double fallback, const Range& range = {},
+                Need need = Need::Optional);
+  std::uint64_t integer(const At& object, const char* key, std::uint64_t fallback, std::uint64_t min = 0,
+                        std::uint64_t max = kMaxInteger, Need need = Need::Optional);
   bool boolean(const At& object, const char* key, bool fallback);
   const std::string* string(const At& object, const char* key, Need need = Need::Optional);
   int reference(const At& object, const char* key, Table table, Need need = Need::Optional);  ///< -1 when absent
-  std::vector<int> references(const At& object, const char* key, Table table, Need need = Need::Optional);  ///< no element twice
-  bool numbers(const At& object, const char* key, std::span<double> out, const Range& range = {});  ///< false when absent; exact length
+  std::vector<int> references(const At& object, const char* key, Table table,
+                              Need need = Need::Optional);  ///< no element twice
+  bool numbers(const At& object, const char* key, std::span<double> out,
+               const Range& range = {});  ///< false when absent; exact length
   std::vector<double> numberList(const At& object, const char* key, std::size_t length);  ///< length 0: any
 
   double numberValue(const At& value, const Range& range);
@@ -117,7 +136,8 @@ class Check {
     const At here(parent, "extensions", *all);
     return withObject(here, name, f);
   }
-  /// Warns of members of an object that the specification does not list (`name`, `extras` and `extensions` are always known).
+  /// Warns of members of an object that the specification does not list (`name`, `extras` and `extensions` are always
+  /// known).
   void known(const At& object, std::initializer_list<std::string_view> names);
 
   void setTableSize(Table table, std::size_t size) { sizes_[std::size_t(table)] = size; }

@@ -7,12 +7,16 @@ namespace burnish::asset {
 int componentBytes(Component c) {
   switch (c) {
     case Component::I8:
-    case Component::U8: return 1;
+    case Component::U8:
+      return 1;
     case Component::I16:
-    case Component::U16: return 2;
+    case Component::U16:
+      return 2;
     case Component::U32:
-    case Component::F32: return 4;
-    case Component::Unknown: break;
+    case Component::F32:
+      return 4;
+    case Component::Unknown:
+      break;
   }
   return 0;
 }
@@ -24,7 +28,8 @@ int componentCount(Shape s) {
 
 std::string formatName(Shape s, Component c, bool normalized) {
   constexpr const char* kShapes[] = {"?", "SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"};
-  constexpr const char* kComponents[] = {"BYTE", "UNSIGNED_BYTE", "SHORT", "UNSIGNED_SHORT", "?", "UNSIGNED_INT", "FLOAT"};
+  constexpr const char* kComponents[] = {"BYTE", "UNSIGNED_BYTE", "SHORT", "UNSIGNED_SHORT",
+                                         "?",    "UNSIGNED_INT",  "FLOAT"};
   const char* component = c == Component::Unknown ? "?" : kComponents[int(c) - int(Component::I8)];
   return fmt::format("{} of {}{}", kShapes[int(s)], component, normalized ? " normalized" : "");
 }

@@ -1,4 +1,5 @@
-// The tables of a glTF file as they stand in it: what parse_*.cpp fill, validate_*.cpp compare with each other and build_*.cpp read from.
+// The tables of a glTF file as they stand in it: what parse_*.cpp fill, validate_*.cpp compare with each other and
+// build_*.cpp read from.
 #pragma once
 #include "asset/asset.h"
 #include "asset/check.h"
@@ -19,14 +20,15 @@ struct Buffer {
   const std::string* uri = nullptr;  ///< in the JSON document
   bool used = false;                 ///< by a buffer view
   std::vector<std::byte> owned;
-  std::span<const std::byte> bytes;  ///< byteLength of them, or none: a buffer without uri outside GLB has no data that this reader can know
+  std::span<const std::byte>
+      bytes;  ///< byteLength of them, or none: a buffer without uri outside GLB has no data that this reader can know
 };
 struct BufferView {
   int buffer = -1;
   std::uint64_t offset = 0, length = 0;
   std::uint32_t stride = 0;  ///< 0: tightly packed
   Usage usage = Usage::None;
-  int vertexAccessor = -1;   ///< the first accessor that reads vertices from it
+  int vertexAccessor = -1;  ///< the first accessor that reads vertices from it
 };
 struct Sparse {
   std::uint64_t count = 0;
@@ -37,14 +39,16 @@ struct Sparse {
 struct Accessor {
   int view = -1;  ///< -1: zeros
   std::uint64_t offset = 0, count = 0;
-  Component component = Component::Unknown;  ///< Unknown: a value that the specification does not list; nothing may use the accessor
+  Component component =
+      Component::Unknown;  ///< Unknown: a value that the specification does not list; nothing may use the accessor
   Shape shape = Shape::Unknown;
   bool normalized = false;
   std::vector<double> min, max;
   std::optional<Sparse> sparse;
   [[nodiscard]] int components() const { return componentCount(shape); }
   [[nodiscard]] bool readable() const { return component != Component::Unknown && shape != Shape::Unknown; }
-  /// Bytes from the first to the last byte of one element: columns of matrices start at multiples of 4 (glTF 2.0, section 3.6.2.4).
+  /// Bytes from the first to the last byte of one element: columns of matrices start at multiples of 4 (glTF 2.0,
+  /// section 3.6.2.4).
   [[nodiscard]] std::uint64_t elementBytes() const;
   [[nodiscard]] std::uint64_t packedStride() const;
 };

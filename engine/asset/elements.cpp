@@ -12,11 +12,16 @@ std::uint64_t loadUnsigned(const std::byte* from, int bytes) {
 double normalizationOf(const Accessor& a) {
   if (!a.normalized) return 1;
   switch (a.component) {
-    case Component::I8: return 1.0 / 127;
-    case Component::U8: return 1.0 / 255;
-    case Component::I16: return 1.0 / 32767;
-    case Component::U16: return 1.0 / 65535;
-    default: return 1;
+    case Component::I8:
+      return 1.0 / 127;
+    case Component::U8:
+      return 1.0 / 255;
+    case Component::I16:
+      return 1.0 / 32767;
+    case Component::U16:
+      return 1.0 / 65535;
+    default:
+      return 1;
   }
 }
 
@@ -52,13 +57,20 @@ void Elements::at(std::uint64_t index, double* v) const {
   }
   if (low < sparseCount_ && sparseIndex(low) == index) from = values_ + low * a_.packedStride();
   switch (a_.component) {
-    case Component::I8: return load<std::int8_t>(from, v);
-    case Component::U8: return load<std::uint8_t>(from, v);
-    case Component::I16: return load<std::int16_t>(from, v);
-    case Component::U16: return load<std::uint16_t>(from, v);
-    case Component::U32: return load<std::uint32_t>(from, v);
-    case Component::F32: return load<float>(from, v);
-    case Component::Unknown: return;
+    case Component::I8:
+      return load<std::int8_t>(from, v);
+    case Component::U8:
+      return load<std::uint8_t>(from, v);
+    case Component::I16:
+      return load<std::int16_t>(from, v);
+    case Component::U16:
+      return load<std::uint16_t>(from, v);
+    case Component::U32:
+      return load<std::uint32_t>(from, v);
+    case Component::F32:
+      return load<float>(from, v);
+    case Component::Unknown:
+      return;
   }
 }
 

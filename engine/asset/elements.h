@@ -16,13 +16,20 @@ class Elements {
   template <class F>
   void each(F&& f) const {
     switch (a_.component) {
-      case Component::I8: return run<std::int8_t>(f);
-      case Component::U8: return run<std::uint8_t>(f);
-      case Component::I16: return run<std::int16_t>(f);
-      case Component::U16: return run<std::uint16_t>(f);
-      case Component::U32: return run<std::uint32_t>(f);
-      case Component::F32: return run<float>(f);
-      case Component::Unknown: return;
+      case Component::I8:
+        return run<std::int8_t>(f);
+      case Component::U8:
+        return run<std::uint8_t>(f);
+      case Component::I16:
+        return run<std::int16_t>(f);
+      case Component::U16:
+        return run<std::uint16_t>(f);
+      case Component::U32:
+        return run<std::uint32_t>(f);
+      case Component::F32:
+        return run<float>(f);
+      case Component::Unknown:
+        return;
     }
   }
   /// One element, for those who need few of many.
@@ -66,10 +73,12 @@ class Elements {
   bool available_ = true;
 };
 
-/// Non-finite numbers, sparse indices, declared bounds, and the values of joints, skins and animations. Faults stand in `check`.
+/// Non-finite numbers, sparse indices, declared bounds, and the values of joints, skins and animations. Faults stand in
+/// `check`.
 void validateData(Check& check, const Document& doc, std::uint64_t sourceBytes);
 
-/// Meshes with their vertices, indices checked against them. Primitives that cannot be shown are left out with a warning.
+/// Meshes with their vertices, indices checked against them. Primitives that cannot be shown are left out with a
+/// warning.
 std::vector<Mesh> buildMeshes(Check& check, const Document& doc, std::uint64_t sourceBytes);
 
 }  // namespace burnish::asset

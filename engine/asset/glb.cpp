@@ -24,10 +24,13 @@ Result<Glb> parseGlb(std::span<const std::byte> file, const std::string& place, 
   const auto bad = [&](std::string what) { return fail(place, "damaged GLB: " + std::move(what), kRemedy); };
   if (file.size() < 12) return bad("the header is cut off");
   const std::uint32_t version = u32At(file, 4), length = u32At(file, 8);
-  if (version != 2) return fail(place, fmt::format("GLB version {} is not supported", version), "convert the file to glTF 2.0");
+  if (version != 2)
+    return fail(place, fmt::format("GLB version {} is not supported", version), "convert the file to glTF 2.0");
   if (length < 20) return bad(fmt::format("the header gives a length of {} bytes, too few for a chunk", length));
-  if (length > file.size()) return bad(fmt::format("the header gives a length of {} bytes, the file has {}", length, file.size()));
-  if (length < file.size()) report.warn(place, fmt::format("{} bytes after the end of the GLB are ignored", file.size() - length));
+  if (length > file.size())
+    return bad(fmt::format("the header gives a length of {} bytes, the file has {}", length, file.size()));
+  if (length < file.size())
+    report.warn(place, fmt::format("{} bytes after the end of the GLB are ignored", file.size() - length));
   Glb glb;
   int index = 0;
   for (std::size_t at = 0, next = 12; next < length; ++index) {

@@ -14,7 +14,8 @@ struct Glb {
 };
 /// True for files that begin with "glTF".
 bool isGlb(std::span<const std::byte> file);
-/// Takes a GLB file apart; the spans point into it. Errors name the chunk, chunks of unknown types and bytes after the end are warnings.
+/// Takes a GLB file apart; the spans point into it. Errors name the chunk, chunks of unknown types and bytes after the
+/// end are warnings.
 Result<Glb> parseGlb(std::span<const std::byte> file, const std::string& place, Report& report);
 
 }  // namespace burnish::asset

@@ -1,5 +1,6 @@
-// readGltf: container, JSON, validation, data, pictures, nodes, in this order. tinygltf stands nowhere in it: of 81 files that are valid (the Khronos
-// validator's own set and eight sample models) it refuses 10, and behind a validator that must touch every property anyway it saves nothing.
+// readGltf: container, JSON, validation, data, pictures, nodes, in this order. tinygltf stands nowhere in it: of 81
+// files that are valid (the Khronos validator's own set and eight sample models) it refuses 10, and behind a validator
+// that must touch every property anyway it saves nothing.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -46,7 +47,8 @@ std::vector<Node> buildNodes(Check& check, const Document& doc) {
     stack.pop_back();
     const NodeSource& n = doc.nodes[std::size_t(todo.source)];
     world.push_back(todo.parent < 0 ? n.local : world[std::size_t(todo.parent)] * n.local);
-    if (!finite(world.back())) check.fail(fmt::format("/nodes/{}", todo.source), "the node's transform in the scene is not finite");
+    if (!finite(world.back()))
+      check.fail(fmt::format("/nodes/{}", todo.source), "the node's transform in the scene is not finite");
     push(n.children, int(out.size()));
     out.push_back({n.name, todo.parent, n.local, n.mesh, n.camera, n.light});
   }
@@ -58,7 +60,8 @@ void checkEnvironment(Check& check, const Document& doc, const Source& source) {
   const std::string& uri = doc.scenes[std::size_t(doc.scene)].environment;
   if (uri.empty()) return;
   if (auto path = core::resolveInside(source.folder, uri, source.allowOutside); !path)
-    check.fail(fmt::format("/scenes/{}/extras/burnish/environment", doc.scene), path.error().place + ": " + path.error().what, path.error().remedy);
+    check.fail(fmt::format("/scenes/{}/extras/burnish/environment", doc.scene),
+               path.error().place + ": " + path.error().what, path.error().remedy);
 }
 
 Result<Asset> finish(Check& check, Document& doc, Source& source, std::uint64_t sourceBytes, ImageDecoder& decoder) {
@@ -84,7 +87,8 @@ Result<Asset> finish(Check& check, Document& doc, Source& source, std::uint64_t 
 
 Result<Asset> read(const std::filesystem::path& file, const ReadOptions& options, Report& report) {
   const std::string place = file.filename().string();
-  if (!options.decoder) return fail(place, "ReadOptions::decoder is not set", "pass makeDecoderPool() or a decoder of your own");
+  if (!options.decoder)
+    return fail(place, "ReadOptions::decoder is not set", "pass makeDecoderPool() or a decoder of your own");
   auto bytes = core::readFile(file, options.maxFileBytes);
   if (!bytes) return fail(std::move(bytes.error()));
   Source source{file.parent_path(), options.allowOutside, options.maxFileBytes - bytes->size(), {}};

@@ -1,6 +1,6 @@
-#include <fmt/format.h>
-
 #include "asset/json_text.h"
+
+#include <fmt/format.h>
 
 namespace burnish::asset {
 namespace {

@@ -19,11 +19,14 @@ void parseChannel(const At& at, Check& check, Animation& a) {
   if (check.ok() && sampler >= a.samplers.size())
     check.fail(at.path() + "/sampler", "sampler " + std::to_string(sampler) + " does not exist");
   c.sampler = check.ok() ? int(sampler) : -1;
-  check.withObject(at, "target", [&](const At& target) {
-    check.known(target, {"node", "path"});
-    c.node = check.reference(target, "node", Table::Nodes);
-    if (const std::string* path = check.string(target, "path", Need::Required)) c.path = *path;
-  }, Need::Required);
+  check.withObject(
+      at, "target",
+      [&](const At& target) {
+        check.known(target, {"node", "path"});
+        c.node = check.reference(target, "node", Table::Nodes);
+        if (const std::string* path = check.string(target, "path", Need::Required)) c.path = *path;
+      },
+      Need::Required);
 }
 
 }  // namespace
@@ -32,8 +35,10 @@ void parseAnimations(const At& root, Check& check, Document& doc) {
   check.eachObject(root, "animations", [&](const At& at, std::size_t) {
     Animation& a = doc.animations.emplace_back();
     check.known(at, {"channels", "samplers"});
-    check.eachObject(at, "samplers", [&](const At& s, std::size_t) { parseSampler(s, check, a); }, Need::Required);
-    check.eachObject(at, "channels", [&](const At& c, std::size_t) { parseChannel(c, check, a); }, Need::Required);
+    check.eachObject(
+        at, "samplers", [&](const At& s, std::size_t) { parseSampler(s, check, a); }, Need::Required);
+    check.eachObject(
+        at, "channels", [&](const At& c, std::size_t) { parseChannel(c, check, a); }, Need::Required);
   });
 }
 

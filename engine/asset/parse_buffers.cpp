@@ -31,19 +31,26 @@ Sparse parseSparse(const At& at, Check& check, std::uint64_t accessorCount) {
   s.count = check.integer(at, "count", 1, 1, Check::kMaxInteger, Need::Required);
   if (check.ok() && s.count > accessorCount)
     check.fail(at.path() + "/count", fmt::format("{} elements are replaced of {}", s.count, accessorCount));
-  check.withObject(at, "indices", [&](const At& indices) {
-    check.known(indices, {"bufferView", "byteOffset", "componentType"});
-    s.indexView = check.reference(indices, "bufferView", Table::BufferViews, Need::Required);
-    s.indexOffset = check.integer(indices, "byteOffset", 0);
-    s.indexComponent = parseComponent(indices, check);
-    if (check.ok() && s.indexComponent != Component::U8 && s.indexComponent != Component::U16 && s.indexComponent != Component::U32)
-      check.fail(indices.path() + "/componentType", "indices of sparse values must be unsigned");
-  }, Need::Required);
-  check.withObject(at, "values", [&](const At& values) {
-    check.known(values, {"bufferView", "byteOffset"});
-    s.valueView = check.reference(values, "bufferView", Table::BufferViews, Need::Required);
-    s.valueOffset = check.integer(values, "byteOffset", 0);
-  }, Need::Required);
+  check.withObject(
+      at, "indices",
+      [&](const At& indices) {
+        check.known(indices, {"bufferView", "byteOffset", "componentType"});
+        s.indexView = check.reference(indices, "bufferView", Table::BufferViews, Need::Required);
+        s.indexOffset = check.integer(indices, "byteOffset", 0);
+        s.indexComponent = parseComponent(indices, check);
+        if (check.ok() && s.indexComponent != Component::U8 && s.indexComponent != Component::U16 &&
+            s.indexComponent != Component::U32)
+          check.fail(indices.path() + "/componentType", "indices of sparse values must be unsigned");
+      },
+      Need::Required);
+  check.withObject(
+      at, "values",
+      [&](const At& values) {
+        check.known(values, {"bufferView", "byteOffset"});
+        s.valueView = check.reference(values, "bufferView", Table::BufferViews, Need::Required);
+        s.valueOffset = check.integer(values, "byteOffset", 0);
+      },
+      Need::Required);
   return s;
 }
 
@@ -59,7 +66,8 @@ void parseAccessor(const At& at, Check& check, Document& doc) {
   a.count = check.integer(at, "count", 1, 1, 0xffffffffu, Need::Required);
   a.normalized = check.boolean(at, "normalized", false);
   if (a.normalized && (a.component == Component::F32 || a.component == Component::U32))
-    check.fail(at.path() + "/normalized", fmt::format("{} cannot be normalized", formatName(a.shape, a.component, false)));
+    check.fail(at.path() + "/normalized",
+               fmt::format("{} cannot be normalized", formatName(a.shape, a.component, false)));
   a.min = check.numberList(at, "min", std::size_t(a.components()));
   a.max = check.numberList(at, "max", std::size_t(a.components()));
   check.withObject(at, "sparse", [&](const At& sparse) { a.sparse = parseSparse(sparse, check, a.count); });
@@ -85,7 +93,8 @@ void parseBuffers(const At& root, Check& check, Document& doc) {
     const std::uint64_t target = check.integer(at, "target", 0);
     if (target == kArrayBuffer) v.usage = Usage::Vertices;
     if (target == kElementArrayBuffer) v.usage = Usage::Indices;
-    if (target && v.usage == Usage::None) check.warn(at.path() + "/target", fmt::format("unknown target {} is ignored", target));
+    if (target && v.usage == Usage::None)
+      check.warn(at.path() + "/target", fmt::format("unknown target {} is ignored", target));
     if (v.usage == Usage::Indices && v.stride)
       check.fail(at.path() + "/byteStride", "only views of vertex data may have a stride");
   });

@@ -9,10 +9,14 @@
 namespace burnish::asset {
 namespace {
 
-constexpr std::string_view kSupported[] = {
-    "KHR_texture_transform", "KHR_lights_punctual",          "KHR_materials_ior",
-    "KHR_materials_specular", "KHR_materials_emissive_strength", "KHR_materials_unlit",
-    "KHR_materials_pbrSpecularGlossiness", "KHR_mesh_quantization"};
+constexpr std::string_view kSupported[] = {"KHR_texture_transform",
+                                           "KHR_lights_punctual",
+                                           "KHR_materials_ior",
+                                           "KHR_materials_specular",
+                                           "KHR_materials_emissive_strength",
+                                           "KHR_materials_unlit",
+                                           "KHR_materials_pbrSpecularGlossiness",
+                                           "KHR_mesh_quantization"};
 
 struct Version {
   int major = 0, minor = 0;
@@ -41,21 +45,25 @@ std::optional<Version> readVersion(const At& asset, const char* key, Check& chec
 }
 
 void parseAssetObject(const At& root, Check& check) {
-  check.withObject(root, "asset", [&](const At& at) {
-    check.known(at, {"version", "minVersion", "copyright", "generator"});
-    check.string(at, "copyright");
-    check.string(at, "generator");
-    const auto version = readVersion(at, "version", check, Need::Required);
-    const auto least = readVersion(at, "minVersion", check, Need::Optional);
-    if (!check.ok()) return;
-    if (version->major != 2)
-      check.fail(At(at, "version", at->at("version")), fmt::format("glTF {}.{} is not supported", version->major, version->minor),
-                 "convert the file to glTF 2.0");
-    else if (least && *least > *version)
-      check.fail(At(at, "minVersion", at->at("minVersion")), "minVersion is greater than version");
-    else if (version->minor > 0)
-      check.warn("/asset/version", fmt::format("glTF 2.{} is read as glTF 2.0", version->minor));
-  }, Need::Required);
+  check.withObject(
+      root, "asset",
+      [&](const At& at) {
+        check.known(at, {"version", "minVersion", "copyright", "generator"});
+        check.string(at, "copyright");
+        check.string(at, "generator");
+        const auto version = readVersion(at, "version", check, Need::Required);
+        const auto least = readVersion(at, "minVersion", check, Need::Optional);
+        if (!check.ok()) return;
+        if (version->major != 2)
+          check.fail(At(at, "version", at->at("version")),
+                     fmt::format("glTF {}.{} is not supported", version->major, version->minor),
+                     "convert the file to glTF 2.0");
+        else if (least && *least > *version)
+          check.fail(At(at, "minVersion", at->at("minVersion")), "minVersion is greater than version");
+        else if (version->minor > 0)
+          check.warn("/asset/version", fmt::format("glTF 2.{} is read as glTF 2.0", version->minor));
+      },
+      Need::Required);
 }
 
 std::vector<std::string> extensionNames(const At& root, const char* key, Check& check) {
@@ -86,7 +94,8 @@ void parseExtensions(const At& root, Check& check) {
   for (std::size_t i = 0; check.ok() && i < required.size(); ++i) {
     const std::string path = fmt::format("/extensionsRequired/{}", i), name = required[i].substr(0, 80);
     if (!check.extensionsUsed.contains(required[i]))
-      check.fail(path, fmt::format("extension '{}' is required but not listed as used", name), "list it in /extensionsUsed");
+      check.fail(path, fmt::format("extension '{}' is required but not listed as used", name),
+                 "list it in /extensionsUsed");
     else if (!supported(required[i]))
       check.fail(path, fmt::format("the file requires extension '{}', which is not supported", name),
                  "export the file without it");
@@ -141,8 +150,9 @@ Document parseDocument(const Json& json, Check& check) {
   doc.quantized = check.extensionsUsed.contains("KHR_mesh_quantization");
   for (const auto parse : {parseBuffers, parseMaterials, parseMeshes, parseNodes, parseScenes, parseAnimations})
     if (check.ok()) parse(root, check, doc);
-  check.known(root, {"asset", "extensionsUsed", "extensionsRequired", "accessors", "animations", "buffers", "bufferViews",
-                     "cameras", "images", "materials", "meshes", "nodes", "samplers", "scene", "scenes", "skins", "textures"});
+  check.known(
+      root, {"asset", "extensionsUsed", "extensionsRequired", "accessors", "animations", "buffers", "bufferViews",
+             "cameras", "images", "materials", "meshes", "nodes", "samplers", "scene", "scenes", "skins", "textures"});
   return doc;
 }
 

@@ -35,7 +35,8 @@ void parseSampler(const At& at, Check& check, Document& doc) {
   s.wrapS = parseWrap(at, "wrapS", check);
   s.wrapT = parseWrap(at, "wrapT", check);
   const std::uint64_t mag = check.integer(at, "magFilter", 9729), min = check.integer(at, "minFilter", 9987);
-  if (mag != 9728 && mag != 9729) check.warn(at.path() + "/magFilter", fmt::format("unknown filter {} is read as LINEAR", mag));
+  if (mag != 9728 && mag != 9729)
+    check.warn(at.path() + "/magFilter", fmt::format("unknown filter {} is read as LINEAR", mag));
   s.magnifyLinear = mag != 9728;
   s.minifyLinear = min != 9728 && min != 9984 && min != 9986;
   s.mips = min != 9728 && min != 9729;
@@ -57,7 +58,9 @@ TextureRef parseTextureRef(const At& parent, const char* key, Check& check, cons
     check.known(at, {"index", "texCoord", strengthKey ? strengthKey : "index"});
     ref.texture = check.reference(at, "index", Table::Textures, Need::Required);
     std::uint64_t set = check.integer(at, "texCoord", 0);
-    if (strengthKey) ref.strength = float(check.number(at, strengthKey, 1, std::string_view(strengthKey) == "strength" ? kUnit : Range{}));
+    if (strengthKey)
+      ref.strength =
+          float(check.number(at, strengthKey, 1, std::string_view(strengthKey) == "strength" ? kUnit : Range{}));
     check.withExtension(at, "KHR_texture_transform", [&](const At& t) {
       check.known(t, {"offset", "rotation", "scale", "texCoord"});
       std::array<double, 2> offset{0, 0}, scale{1, 1};
@@ -69,7 +72,8 @@ TextureRef parseTextureRef(const At& parent, const char* key, Check& check, cons
       set = check.integer(t, "texCoord", set);
     });
     if (check.ok() && set > 1) {
-      check.warn(at.path(), fmt::format("texture coordinates TEXCOORD_{} are not supported: the texture is left out", set));
+      check.warn(at.path(),
+                 fmt::format("texture coordinates TEXCOORD_{} are not supported: the texture is left out", set));
       ref.texture = -1;
     }
     ref.uvSet = set == 1;
@@ -87,7 +91,8 @@ glm::vec4 vec4Of(const At& at, const char* key, Check& check) {
 }
 
 void parseMetallicRoughness(const At& at, Check& check, Material& m) {
-  check.known(at, {"baseColorFactor", "baseColorTexture", "metallicFactor", "roughnessFactor", "metallicRoughnessTexture"});
+  check.known(at,
+              {"baseColorFactor", "baseColorTexture", "metallicFactor", "roughnessFactor", "metallicRoughnessTexture"});
   m.baseColor = vec4Of(at, "baseColorFactor", check);
   m.metallic = float(check.number(at, "metallicFactor", 1, kUnit));
   m.roughness = float(check.number(at, "roughnessFactor", 1, kUnit));
@@ -96,7 +101,8 @@ void parseMetallicRoughness(const At& at, Check& check, Material& m) {
 }
 
 void parseSpecularGlossiness(const At& at, Check& check, Material& m) {
-  check.known(at, {"diffuseFactor", "diffuseTexture", "specularFactor", "glossinessFactor", "specularGlossinessTexture"});
+  check.known(at,
+              {"diffuseFactor", "diffuseTexture", "specularFactor", "glossinessFactor", "specularGlossinessTexture"});
   m.specularGlossiness = true;
   m.diffuse = vec4Of(at, "diffuseFactor", check);
   m.specularF0 = vec3Of(at, "specularFactor", check, glm::vec3(1));
@@ -116,7 +122,8 @@ void parseMaterialExtensions(const At& at, Check& check, Material& m) {
   check.withExtension(at, "KHR_materials_ior", [&](const At& e) {
     check.known(e, {"ior"});
     m.ior = float(check.number(e, "ior", 1.5, kNotNegative));
-    if (m.ior != 0 && m.ior < 1) check.fail(e.path() + "/ior", fmt::format("{} is out of range (0, or at least 1)", m.ior));
+    if (m.ior != 0 && m.ior < 1)
+      check.fail(e.path() + "/ior", fmt::format("{} is out of range (0, or at least 1)", m.ior));
   });
   check.withExtension(at, "KHR_materials_specular", [&](const At& e) {
     check.known(e, {"specularFactor", "specularTexture", "specularColorFactor", "specularColorTexture"});
@@ -127,14 +134,15 @@ void parseMaterialExtensions(const At& at, Check& check, Material& m) {
   });
   check.withExtension(at, "KHR_materials_pbrSpecularGlossiness", [&](const At& e) {
     parseSpecularGlossiness(e, check, m);
-    m.baseColorTexture = m.metallicRoughnessTexture = {};  // the fallback for readers without the extension: not worth decoding
+    m.baseColorTexture =
+        m.metallicRoughnessTexture = {};  // the fallback for readers without the extension: not worth decoding
   });
 }
 
 void parseMaterial(const At& at, Check& check, Document& doc) {
   Material& m = doc.materials.emplace_back();
-  check.known(at, {"pbrMetallicRoughness", "normalTexture", "occlusionTexture", "emissiveTexture", "emissiveFactor", "alphaMode",
-                   "alphaCutoff", "doubleSided"});
+  check.known(at, {"pbrMetallicRoughness", "normalTexture", "occlusionTexture", "emissiveTexture", "emissiveFactor",
+                   "alphaMode", "alphaCutoff", "doubleSided"});
   if (const std::string* name = check.string(at, "name")) m.name = *name;
   check.withObject(at, "pbrMetallicRoughness", [&](const At& p) { parseMetallicRoughness(p, check, m); });
   m.normalTexture = parseTextureRef(at, "normalTexture", check, "scale");
@@ -147,7 +155,8 @@ void parseMaterial(const At& at, Check& check, Document& doc) {
     if (*mode == "MASK") m.alphaMode = AlphaMode::Mask;
     if (*mode == "BLEND") m.alphaMode = AlphaMode::Blend;
     if (*mode != "OPAQUE" && m.alphaMode == AlphaMode::Opaque)
-      check.warn(at.path() + "/alphaMode", fmt::format("unknown alpha mode '{}' is read as OPAQUE", mode->substr(0, 40)));
+      check.warn(at.path() + "/alphaMode",
+                 fmt::format("unknown alpha mode '{}' is read as OPAQUE", mode->substr(0, 40)));
   }
   parseMaterialExtensions(at, check, m);
 }

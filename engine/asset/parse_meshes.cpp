@@ -1,4 +1,5 @@
-// Meshes and their primitives: structure, semantics' names and references. Formats and counts are validate_meshes.cpp's.
+// Meshes and their primitives: structure, semantics' names and references. Formats and counts are
+// validate_meshes.cpp's.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,7 +10,9 @@ namespace burnish::asset {
 namespace {
 
 // Names of attributes: glTF 2.0, section 3.7.2.1. Custom ones start with an underscore.
-bool isIndexed(std::string_view name) { return name == "TEXCOORD" || name == "COLOR" || name == "JOINTS" || name == "WEIGHTS"; }
+bool isIndexed(std::string_view name) {
+  return name == "TEXCOORD" || name == "COLOR" || name == "JOINTS" || name == "WEIGHTS";
+}
 
 bool knownSemantic(std::string_view name, bool target) {
   if (name.starts_with('_') || name == "POSITION" || name == "NORMAL" || name == "TANGENT") return true;
@@ -24,7 +27,8 @@ bool knownSemantic(std::string_view name, bool target) {
 std::vector<Attribute> parseAttributes(const At& at, Check& check, bool target) {
   std::vector<Attribute> out;
   constexpr std::size_t kMost = 256;
-  if (at->empty() || at->size() > kMost) check.fail(at, fmt::format("{} attributes (1 to {} are allowed)", at->size(), kMost));
+  if (at->empty() || at->size() > kMost)
+    check.fail(at, fmt::format("{} attributes (1 to {} are allowed)", at->size(), kMost));
   for (auto m = at->begin(); check.ok() && m != at->end(); ++m) {
     const At here(at, m.key(), m.value());
     if (!knownSemantic(m.key(), target))
@@ -38,13 +42,16 @@ std::vector<Attribute> parseAttributes(const At& at, Check& check, bool target) 
 // TEXCOORD_0, TEXCOORD_1, ...: without gaps.
 void checkContinuity(const At& at, Check& check, const PrimitiveSource& p) {
   for (const std::string_view family : {"TEXCOORD_", "COLOR_", "JOINTS_", "WEIGHTS_"}) {
-    const auto count = std::count_if(p.attributes.begin(), p.attributes.end(), [&](const Attribute& a) { return a.semantic.starts_with(family); });
+    const auto count = std::count_if(p.attributes.begin(), p.attributes.end(),
+                                     [&](const Attribute& a) { return a.semantic.starts_with(family); });
     for (int i = 0; i < count; ++i)
       if (p.find(fmt::format("{}{}", family, i)) < 0)
-        check.fail(at, fmt::format("there are {} {} attributes but no {}{}", count, family.substr(0, family.size() - 1), family, i));
+        check.fail(at, fmt::format("there are {} {} attributes but no {}{}", count, family.substr(0, family.size() - 1),
+                                   family, i));
   }
   const auto has = [&](const char* name) { return p.find(name) >= 0; };
-  for (int i = 0; check.ok() && (has(fmt::format("JOINTS_{}", i).c_str()) || has(fmt::format("WEIGHTS_{}", i).c_str())); ++i)
+  for (int i = 0; check.ok() && (has(fmt::format("JOINTS_{}", i).c_str()) || has(fmt::format("WEIGHTS_{}", i).c_str()));
+       ++i)
     if (has(fmt::format("JOINTS_{}", i).c_str()) != has(fmt::format("WEIGHTS_{}", i).c_str()))
       check.fail(at, "the numbers of JOINTS and WEIGHTS attributes differ");
 }
@@ -76,13 +83,16 @@ void parseMesh(const At& at, Check& check, Document& doc) {
   MeshSource& mesh = doc.meshes.emplace_back();
   check.known(at, {"primitives", "weights"});
   if (const std::string* name = check.string(at, "name")) mesh.name = *name;
-  check.eachObject(at, "primitives", [&](const At& p, std::size_t) { parsePrimitive(p, check, mesh); }, Need::Required);
+  check.eachObject(
+      at, "primitives", [&](const At& p, std::size_t) { parsePrimitive(p, check, mesh); }, Need::Required);
   mesh.weights = check.numberList(at, "weights", 0).size();
   if (!check.ok()) return;
   const std::size_t targets = mesh.primitives[0].targets.size();
   for (std::size_t i = 1; i < mesh.primitives.size(); ++i)
     if (mesh.primitives[i].targets.size() != targets)
-      check.fail(fmt::format("{}/primitives/{}", at.path(), i), fmt::format("{} morph targets where the first primitive has {}", mesh.primitives[i].targets.size(), targets));
+      check.fail(
+          fmt::format("{}/primitives/{}", at.path(), i),
+          fmt::format("{} morph targets where the first primitive has {}", mesh.primitives[i].targets.size(), targets));
   if (mesh.weights && mesh.weights != targets)
     check.fail(at.path() + "/weights", fmt::format("{} weights for {} morph targets", mesh.weights, targets));
 }

@@ -72,14 +72,18 @@ void parseLight(const At& at, Check& check, Document& doc) {
   } else if (*type == "spot") {
     l.kind = Light::Kind::Spot;
     constexpr double kHalfPi = std::numbers::pi / 2;
-    check.withObject(at, "spot", [&](const At& s) {
-      check.known(s, {"innerConeAngle", "outerConeAngle"});
-      const double inner = check.number(s, "innerConeAngle", 0, Range{0, kHalfPi + 1e-6});
-      const double outer = check.number(s, "outerConeAngle", std::numbers::pi / 4, Range{0, kHalfPi + 1e-6, true});
-      if (check.ok() && inner >= outer) check.fail(s, fmt::format("inner cone {} is not inside outer cone {}", inner, outer));
-      l.innerCone = float(inner);
-      l.outerCone = float(std::min(outer, kHalfPi));
-    }, Need::Required);
+    check.withObject(
+        at, "spot",
+        [&](const At& s) {
+          check.known(s, {"innerConeAngle", "outerConeAngle"});
+          const double inner = check.number(s, "innerConeAngle", 0, Range{0, kHalfPi + 1e-6});
+          const double outer = check.number(s, "outerConeAngle", std::numbers::pi / 4, Range{0, kHalfPi + 1e-6, true});
+          if (check.ok() && inner >= outer)
+            check.fail(s, fmt::format("inner cone {} is not inside outer cone {}", inner, outer));
+          l.innerCone = float(inner);
+          l.outerCone = float(std::min(outer, kHalfPi));
+        },
+        Need::Required);
   } else {
     check.fail(at.path() + "/type", fmt::format("unknown kind of light '{}'", type->substr(0, 40)));
   }

@@ -9,9 +9,9 @@ namespace burnish::asset {
 namespace {
 
 constexpr TextureRef Material::*kSlots[] = {
-    &Material::baseColorTexture, &Material::metallicRoughnessTexture, &Material::normalTexture,
-    &Material::occlusionTexture, &Material::emissiveTexture,          &Material::specularTexture,
-    &Material::specularColorTexture, &Material::diffuseTexture,       &Material::specularGlossinessTexture};
+    &Material::baseColorTexture,     &Material::metallicRoughnessTexture, &Material::normalTexture,
+    &Material::occlusionTexture,     &Material::emissiveTexture,          &Material::specularTexture,
+    &Material::specularColorTexture, &Material::diffuseTexture,           &Material::specularGlossinessTexture};
 
 std::string imagePath(std::size_t i, const char* member = "") { return fmt::format("/images/{}{}", i, member); }
 
@@ -20,12 +20,13 @@ std::vector<bool> usedPictures(const Document& doc) {
   for (const Material& m : doc.materials)
     for (const auto slot : kSlots)
       if (const TextureRef& ref = m.*slot)
-        if (const int picture = doc.textures[std::size_t(ref.texture)].picture; picture >= 0) used[std::size_t(picture)] = true;
+        if (const int picture = doc.textures[std::size_t(ref.texture)].picture; picture >= 0)
+          used[std::size_t(picture)] = true;
   return used;
 }
 
-// A name inside the folder that nothing stands behind. Everything else that cannot be resolved is a refusal: told apart by asking again without the guard,
-// and by looking whether something is there that is no file.
+// A name inside the folder that nothing stands behind. Everything else that cannot be resolved is a refusal: told apart
+// by asking again without the guard, and by looking whether something is there that is no file.
 bool isMissing(const Source& source, const std::string& uri, const Error& refusal) {
   if (uriKind(uri) != UriKind::Relative) return false;
   const std::string name = percentDecoded(uri);
@@ -37,9 +38,12 @@ bool isMissing(const Source& source, const std::string& uri, const Error& refusa
 }
 
 // The canonical path of a picture's file; empty when there is none (a warning where the picture is used).
-std::filesystem::path resolve(Check& check, const Source& source, const std::string& uri, std::size_t index, bool used) {
-  if (uriKind(uri) == UriKind::Invalid) check.fail(imagePath(index, "/uri"), fmt::format("'{}' is no URI", uri.substr(0, 80)));
-  if (!used && uri.starts_with("http")) check.warn(imagePath(index, "/uri"), "nothing is fetched from a network; the picture is not used");
+std::filesystem::path resolve(Check& check, const Source& source, const std::string& uri, std::size_t index,
+                              bool used) {
+  if (uriKind(uri) == UriKind::Invalid)
+    check.fail(imagePath(index, "/uri"), fmt::format("'{}' is no URI", uri.substr(0, 80)));
+  if (!used && uri.starts_with("http"))
+    check.warn(imagePath(index, "/uri"), "nothing is fetched from a network; the picture is not used");
   if (!check.ok() || (!used && uri.starts_with("http"))) return {};
   auto path = core::resolveInside(source.folder, uri, source.allowOutside);
   if (path) return std::move(*path);
@@ -53,14 +57,16 @@ std::filesystem::path resolve(Check& check, const Source& source, const std::str
 
 class Loader {
  public:
-  Loader(Check& check, const Document& doc, Source& source, ImageDecoder& decoder) : check_(check), doc_(doc), source_(source), decoder_(decoder) {}
+  Loader(Check& check, const Document& doc, Source& source, ImageDecoder& decoder)
+      : check_(check), doc_(doc), source_(source), decoder_(decoder) {}
 
   void load(std::size_t index, bool used, Picture& out) {
     const PictureSource& p = doc_.pictures[index];
     out.name = p.name;
     if (p.view >= 0) {
       const auto bytes = bytesOf(doc_, p.view);
-      if (used && bytes.empty()) check_.warn(imagePath(index), "the picture's buffer has no data: materials go on without it");
+      if (used && bytes.empty())
+        check_.warn(imagePath(index), "the picture's buffer has no data: materials go on without it");
       if (used && !bytes.empty()) decode(index, bytes, out);
     } else if (uriKind(*p.uri) == UriKind::Data) {
       auto data = decodeDataUri(*p.uri);
@@ -74,8 +80,11 @@ class Loader {
 
  private:
   void loadFile(std::size_t index, const std::filesystem::path& file, Picture& out) {
-    auto bytes = core::readFileInside(source_.folder, *doc_.pictures[index].uri, source_.allowOutside, source_.bytesLeft);
-    if (!bytes) return check_.warn(imagePath(index), fmt::format("picture {}: {}: materials go on without it", file.filename().string(), bytes.error().what));
+    auto bytes =
+        core::readFileInside(source_.folder, *doc_.pictures[index].uri, source_.allowOutside, source_.bytesLeft);
+    if (!bytes)
+      return check_.warn(imagePath(index), fmt::format("picture {}: {}: materials go on without it",
+                                                       file.filename().string(), bytes.error().what));
     source_.bytesLeft -= bytes->size();
     decode(index, *bytes, out);
   }
@@ -85,7 +94,8 @@ class Loader {
     limits.maxBytes = std::min(limits.maxBytes, decodedLeft_);
     auto image = decoder_.decode(bytes, out.name, limits);
     if (!image)
-      return check_.warn(imagePath(index), fmt::format("picture {} cannot be used: {}: materials go on without it", out.name, image.error().what));
+      return check_.warn(imagePath(index), fmt::format("picture {} cannot be used: {}: materials go on without it",
+                                                       out.name, image.error().what));
     decodedLeft_ -= std::min<std::uint64_t>(decodedLeft_, image->byteSize());
     out.pixels = std::move(*image);
   }
@@ -107,14 +117,17 @@ std::vector<Picture> loadPictures(Check& check, const Document& doc, Source& sou
   return out;
 }
 
-void dropMissingTextures(Check& check, std::vector<Material>& materials, const std::vector<Texture>& textures, const std::vector<Picture>& pictures) {
+void dropMissingTextures(Check& check, std::vector<Material>& materials, const std::vector<Texture>& textures,
+                         const std::vector<Picture>& pictures) {
   for (std::size_t i = 0; i < materials.size(); ++i)
     for (const auto slot : kSlots) {
       TextureRef& ref = materials[i].*slot;
       if (!ref) continue;
       const int picture = textures[std::size_t(ref.texture)].picture;
       if (picture >= 0 && !pictures[std::size_t(picture)].pixels.empty()) continue;
-      if (picture < 0) check.warn(fmt::format("/textures/{}", ref.texture), "the texture has no picture that can be read: materials go on without it");
+      if (picture < 0)
+        check.warn(fmt::format("/textures/{}", ref.texture),
+                   "the texture has no picture that can be read: materials go on without it");
       ref.texture = -1;
     }
 }

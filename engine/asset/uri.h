@@ -7,7 +7,8 @@
 namespace burnish::asset {
 
 enum class UriKind { Relative, Data, Remote, Invalid };  ///< Remote: any other scheme, "file:" included
-/// By the text alone. Invalid: empty, or a ':' in the first segment that no scheme stands before (RFC 3986, section 4.2).
+/// By the text alone. Invalid: empty, or a ':' in the first segment that no scheme stands before (RFC 3986,
+/// section 4.2).
 UriKind uriKind(std::string_view uri);
 
 std::string percentDecoded(std::string_view text);

@@ -1,4 +1,5 @@
-// Animations against the nodes and accessors that they name (glTF 2.0, section 3.11). They are not played, yet a fault in them is a fault of the file.
+// Animations against the nodes and accessors that they name (glTF 2.0, section 3.11). They are not played, yet a fault
+// in them is a fault of the file.
 #include <fmt/format.h>
 
 #include "asset/document.h"
@@ -9,8 +10,10 @@ namespace {
 void checkSamplerInput(Check& check, Document& doc, const AnimationSampler& s, const std::string& path) {
   const Accessor& a = doc.accessors[std::size_t(s.input)];
   if (a.shape != Shape::Scalar || a.component != Component::F32)
-    return check.fail(path, fmt::format("accessor {} is {}, not SCALAR of FLOAT", s.input, formatName(a.shape, a.component, a.normalized)));
-  if (a.min.empty() || a.max.empty()) return check.fail(path, fmt::format("accessor {} has no min and max, which times need", s.input));
+    return check.fail(path, fmt::format("accessor {} is {}, not SCALAR of FLOAT", s.input,
+                                        formatName(a.shape, a.component, a.normalized)));
+  if (a.min.empty() || a.max.empty())
+    return check.fail(path, fmt::format("accessor {} has no min and max, which times need", s.input));
   if (s.cubic && a.count < 2) return check.fail(path, "a cubic spline needs two key frames at least");
   useView(check, doc, a.view, Usage::Animation, path);
 }
@@ -22,24 +25,30 @@ bool outputFits(const Accessor& a, const std::string& path) {
   return a.shape == Shape::Vec3 && a.component == Component::F32;
 }
 
-void checkChannel(Check& check, Document& doc, const Animation& animation, const AnimationChannel& c, const std::string& path) {
+void checkChannel(Check& check, Document& doc, const Animation& animation, const AnimationChannel& c,
+                  const std::string& path) {
   if (c.path != "translation" && c.path != "rotation" && c.path != "scale" && c.path != "weights")
     return check.warn(path + "/target/path", fmt::format("unknown animation path '{}'", c.path.substr(0, 40)));
   std::uint64_t width = 1;
   if (c.node >= 0) {
     const NodeSource& n = doc.nodes[std::size_t(c.node)];
-    if (n.hasMatrix && c.path != "weights") return check.fail(path + "/target", fmt::format("node {} has a matrix, so its {} cannot be animated", c.node, c.path));
+    if (n.hasMatrix && c.path != "weights")
+      return check.fail(path + "/target",
+                        fmt::format("node {} has a matrix, so its {} cannot be animated", c.node, c.path));
     const std::size_t targets = n.mesh < 0 ? 0 : doc.meshes[std::size_t(n.mesh)].primitives[0].targets.size();
-    if (c.path == "weights" && targets == 0) return check.fail(path + "/target", fmt::format("node {} has no morph targets to weigh", c.node));
+    if (c.path == "weights" && targets == 0)
+      return check.fail(path + "/target", fmt::format("node {} has no morph targets to weigh", c.node));
     if (c.path == "weights") width = targets;
   }
   const AnimationSampler& s = animation.samplers[std::size_t(c.sampler)];
   const Accessor& a = doc.accessors[std::size_t(s.output)];
   if (!outputFits(a, c.path))
-    return check.fail(path + "/sampler", fmt::format("output accessor {} is {}, which {} cannot be", s.output, formatName(a.shape, a.component, a.normalized), c.path));
+    return check.fail(path + "/sampler", fmt::format("output accessor {} is {}, which {} cannot be", s.output,
+                                                     formatName(a.shape, a.component, a.normalized), c.path));
   const std::uint64_t expected = doc.accessors[std::size_t(s.input)].count * (s.cubic ? 3 : 1) * width;
   if (a.count != expected && (c.node >= 0 || c.path != "weights"))
-    check.fail(path + "/sampler", fmt::format("output accessor {} has {} elements, {} are expected", s.output, a.count, expected));
+    check.fail(path + "/sampler",
+               fmt::format("output accessor {} has {} elements, {} are expected", s.output, a.count, expected));
 }
 
 void checkDuplicates(Check& check, const Animation& animation, const std::string& path) {
@@ -48,7 +57,9 @@ void checkDuplicates(Check& check, const Animation& animation, const std::string
     const AnimationChannel& c = animation.channels[i];
     if (c.node < 0) continue;
     const auto [first, fresh] = seen.try_emplace({c.node, c.path}, i);
-    if (!fresh) check.fail(fmt::format("{}/channels/{}/target", path, i), fmt::format("channel {} has the same target", first->second));
+    if (!fresh)
+      check.fail(fmt::format("{}/channels/{}/target", path, i),
+                 fmt::format("channel {} has the same target", first->second));
   }
 }
 
@@ -61,7 +72,8 @@ void validateAnimations(Check& check, Document& doc) {
     for (std::size_t s = 0; check.ok() && s < animation.samplers.size(); ++s) {
       const std::string place = fmt::format("{}/samplers/{}", path, s);
       checkSamplerInput(check, doc, animation.samplers[s], place + "/input");
-      useView(check, doc, doc.accessors[std::size_t(animation.samplers[s].output)].view, Usage::Animation, place + "/output");
+      useView(check, doc, doc.accessors[std::size_t(animation.samplers[s].output)].view, Usage::Animation,
+              place + "/output");
     }
     for (std::size_t c = 0; check.ok() && c < animation.channels.size(); ++c)
       checkChannel(check, doc, animation, animation.channels[c], fmt::format("{}/channels/{}", path, c));

@@ -1,4 +1,5 @@
-// Buffers, views and accessors against each other: bounds, alignment, strides, and one use for each view. Sums stay below 2^54, so nothing overflows.
+// Buffers, views and accessors against each other: bounds, alignment, strides, and one use for each view. Sums stay
+// below 2^54, so nothing overflows.
 #include <fmt/format.h>
 
 #include "asset/document.h"
@@ -37,9 +38,11 @@ void checkFit(Check& check, const Document& doc, const Fit& f, const std::string
   if (f.offset % f.alignment)
     check.fail(path + "/byteOffset", fmt::format("offset {} is not a multiple of {}", f.offset, f.alignment));
   else if ((f.offset + v.offset) % f.componentBytes)
-    check.fail(path, fmt::format("its place in the buffer, {}, is not a multiple of {}", f.offset + v.offset, f.componentBytes));
+    check.fail(path, fmt::format("its place in the buffer, {}, is not a multiple of {}", f.offset + v.offset,
+                                 f.componentBytes));
   else if (f.offset + length > v.length)
-    check.fail(path, fmt::format("{} elements from offset {} take {} bytes, buffer view {} has {}", f.count, f.offset, length, f.view, v.length));
+    check.fail(path, fmt::format("{} elements from offset {} take {} bytes, buffer view {} has {}", f.count, f.offset,
+                                 length, f.view, v.length));
 }
 
 void validateAccessor(Check& check, Document& doc, std::size_t index) {
@@ -51,8 +54,11 @@ void validateAccessor(Check& check, Document& doc, std::size_t index) {
   if (a.view >= 0) {
     const std::uint32_t stride = doc.views[std::size_t(a.view)].stride;
     if (stride && stride < a.elementBytes())
-      check.fail(path, fmt::format("the view's stride of {} bytes is less than the element's {}", stride, a.elementBytes()));
-    checkFit(check, doc, {a.view, a.offset, a.count, a.elementBytes(), stride ? stride : a.packedStride(), alignment, component}, path);
+      check.fail(path,
+                 fmt::format("the view's stride of {} bytes is less than the element's {}", stride, a.elementBytes()));
+    checkFit(check, doc,
+             {a.view, a.offset, a.count, a.elementBytes(), stride ? stride : a.packedStride(), alignment, component},
+             path);
   }
   if (!a.sparse) return;
   const Sparse& s = *a.sparse;
@@ -62,17 +68,20 @@ void validateAccessor(Check& check, Document& doc, std::size_t index) {
   }
   const std::uint64_t bytes = std::uint64_t(componentBytes(s.indexComponent));
   checkFit(check, doc, {s.indexView, s.indexOffset, s.count, bytes, bytes, bytes, bytes}, path + "/sparse/indices");
-  checkFit(check, doc, {s.valueView, s.valueOffset, s.count, a.elementBytes(), a.packedStride(), alignment, component}, path + "/sparse/values");
+  checkFit(check, doc, {s.valueView, s.valueOffset, s.count, a.elementBytes(), a.packedStride(), alignment, component},
+           path + "/sparse/values");
 }
 
 }  // namespace
 
 void useView(Check& check, Document& doc, int view, Usage usage, const std::string& path) {
-  constexpr const char* kNames[] = {"nothing", "vertices", "indices", "a picture", "matrices of a skin", "an animation", "sparse values"};
+  constexpr const char* kNames[] = {"nothing",      "vertices",     "indices", "a picture", "matrices of a skin",
+                                    "an animation", "sparse values"};
   if (!check.ok() || view < 0) return;
   BufferView& v = doc.views[std::size_t(view)];
   if (v.usage != Usage::None && v.usage != usage)
-    check.fail(path, fmt::format("buffer view {} is used for {} and for {}", view, kNames[int(v.usage)], kNames[int(usage)]));
+    check.fail(path,
+               fmt::format("buffer view {} is used for {} and for {}", view, kNames[int(v.usage)], kNames[int(usage)]));
   else if (v.stride && usage != Usage::Vertices)
     check.fail(path, fmt::format("buffer view {} has a stride and holds {}", view, kNames[int(usage)]));
   v.usage = usage;

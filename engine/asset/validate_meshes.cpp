@@ -1,4 +1,5 @@
-// Attributes and indices of primitives against the accessors that they name: formats, counts, alignment, kinds of views (glTF 2.0, section 3.7.2).
+// Attributes and indices of primitives against the accessors that they name: formats, counts, alignment, kinds of views
+// (glTF 2.0, section 3.7.2).
 #include <fmt/format.h>
 
 #include "asset/document.h"
@@ -7,17 +8,36 @@ namespace burnish::asset {
 namespace {
 
 // Sets of component types, with a second bit for the normalized form of each.
-enum Formats : unsigned { F32 = 1, I8 = 2, I8n = 4, U8 = 8, U8n = 16, I16 = 32, I16n = 64, U16 = 128, U16n = 256, U32 = 512, AnyFormat = 1023 };
+enum Formats : unsigned {
+  F32 = 1,
+  I8 = 2,
+  I8n = 4,
+  U8 = 8,
+  U8n = 16,
+  I16 = 32,
+  I16n = 64,
+  U16 = 128,
+  U16n = 256,
+  U32 = 512,
+  AnyFormat = 1023
+};
 
 unsigned formatOf(const Accessor& a) {
   switch (a.component) {
-    case Component::F32: return F32;
-    case Component::I8: return a.normalized ? I8n : I8;
-    case Component::U8: return a.normalized ? U8n : U8;
-    case Component::I16: return a.normalized ? I16n : I16;
-    case Component::U16: return a.normalized ? U16n : U16;
-    case Component::U32: return U32;
-    case Component::Unknown: break;
+    case Component::F32:
+      return F32;
+    case Component::I8:
+      return a.normalized ? I8n : I8;
+    case Component::U8:
+      return a.normalized ? U8n : U8;
+    case Component::I16:
+      return a.normalized ? I16n : I16;
+    case Component::U16:
+      return a.normalized ? U16n : U16;
+    case Component::U32:
+      return U32;
+    case Component::Unknown:
+      break;
   }
   return 0;
 }
@@ -52,16 +72,20 @@ void checkVertexAccessor(Checked& p, const Attribute& at, bool target, const std
   const Allowed allowed = allowedFor(at.semantic, target);
   const unsigned formats = allowed.formats | (p.doc.quantized ? allowed.quantized : 0);
   if (!(allowed.shapes & bit(a.shape)) || !(formats & formatOf(a)))
-    return p.check.fail(path, fmt::format("accessor {} is {}, which {} cannot be", at.accessor, formatName(a.shape, a.component, a.normalized), at.semantic));
+    return p.check.fail(path, fmt::format("accessor {} is {}, which {} cannot be", at.accessor,
+                                          formatName(a.shape, a.component, a.normalized), at.semantic));
   if (at.semantic == "POSITION" && (a.min.empty() || a.max.empty()))
     return p.check.fail(path, fmt::format("accessor {} has no min and max, which positions need", at.accessor));
   if (a.view < 0) return;
   BufferView& v = p.doc.views[std::size_t(a.view)];
   if (a.offset % 4 || (v.stride == 0 && a.elementBytes() % 4 && a.count > 1))
-    return p.check.fail(path, fmt::format("accessor {} is not aligned to 4 bytes, which vertex data must be", at.accessor),
+    return p.check.fail(path,
+                        fmt::format("accessor {} is not aligned to 4 bytes, which vertex data must be", at.accessor),
                         "pad the elements and give the view a byteStride");
   if (v.vertexAccessor >= 0 && v.vertexAccessor != at.accessor && v.stride == 0)
-    return p.check.fail(path, fmt::format("buffer view {} holds several vertex accessors and has no byteStride", a.view), "give the view a byteStride");
+    return p.check.fail(path,
+                        fmt::format("buffer view {} holds several vertex accessors and has no byteStride", a.view),
+                        "give the view a byteStride");
   v.vertexAccessor = at.accessor;
   useView(p.check, p.doc, a.view, Usage::Vertices, path);
 }
@@ -73,12 +97,14 @@ void checkAttributes(Checked& p) {
     appendPointer(path, at.semantic);
     checkVertexAccessor(p, at, false, path);
     const std::uint64_t n = p.doc.accessors[std::size_t(at.accessor)].count;
-    if (count && n != count) p.check.fail(path, fmt::format("{} elements where the other attributes have {}", n, count));
+    if (count && n != count)
+      p.check.fail(path, fmt::format("{} elements where the other attributes have {}", n, count));
     count = n;
   }
   const auto has = [&](const char* name) { return p.source.find(name) >= 0; };
   if (!has("POSITION")) p.check.warn(p.path + "/attributes", "there are no positions: the primitive is left out");
-  if (has("TANGENT") && !has("NORMAL")) p.check.warn(p.path + "/attributes/TANGENT", "tangents without normals are ignored");
+  if (has("TANGENT") && !has("NORMAL"))
+    p.check.warn(p.path + "/attributes/TANGENT", "tangents without normals are ignored");
 }
 
 void checkTargets(Checked& p) {
@@ -99,7 +125,8 @@ void checkIndices(Checked& p) {
   const Accessor& a = p.doc.accessors[std::size_t(p.source.indices)];
   const std::string path = p.path + "/indices";
   if (a.shape != Shape::Scalar || !(formatOf(a) & (U8 | U16 | U32)))
-    return p.check.fail(path, fmt::format("accessor {} is {}, which indices cannot be", p.source.indices, formatName(a.shape, a.component, a.normalized)));
+    return p.check.fail(path, fmt::format("accessor {} is {}, which indices cannot be", p.source.indices,
+                                          formatName(a.shape, a.component, a.normalized)));
   useView(p.check, p.doc, a.view, Usage::Indices, path);
 }
 
@@ -112,7 +139,8 @@ void validateMeshes(Check& check, Document& doc) {
       checkAttributes(p);
       if (check.ok()) checkTargets(p);
       if (check.ok()) checkIndices(p);
-      if (!p.source.targets.empty()) check.warn(p.path + "/targets", "morph targets are not supported: the base shape is shown");
+      if (!p.source.targets.empty())
+        check.warn(p.path + "/targets", "morph targets are not supported: the base shape is shown");
     }
 }
 

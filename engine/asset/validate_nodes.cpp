@@ -1,4 +1,5 @@
-// The node hierarchy is a forest, scenes name its roots, skins and animations fit it. Nothing recurses: files may nest nodes as deep as they like.
+// The node hierarchy is a forest, scenes name its roots, skins and animations fit it. Nothing recurses: files may nest
+// nodes as deep as they like.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -47,8 +48,10 @@ void checkMeshOfNode(Check& check, const Document& doc, std::size_t index) {
   const std::size_t targets = mesh.primitives[0].targets.size();
   if (n.weights && n.weights != targets)
     check.fail(nodePath(index, "/weights"), fmt::format("{} weights for {} morph targets", n.weights, targets));
-  const bool skinned = std::any_of(mesh.primitives.begin(), mesh.primitives.end(), [](const PrimitiveSource& p) { return p.find("JOINTS_0") >= 0; });
-  if (n.skin >= 0 && !skinned) check.fail(nodePath(index), fmt::format("the node has a skin, but mesh {} has no joints", n.mesh));
+  const bool skinned = std::any_of(mesh.primitives.begin(), mesh.primitives.end(),
+                                   [](const PrimitiveSource& p) { return p.find("JOINTS_0") >= 0; });
+  if (n.skin >= 0 && !skinned)
+    check.fail(nodePath(index), fmt::format("the node has a skin, but mesh {} has no joints", n.mesh));
 }
 
 void checkScenes(Check& check, const Document& doc) {
@@ -56,7 +59,8 @@ void checkScenes(Check& check, const Document& doc) {
     for (std::size_t i = 0; check.ok() && i < doc.scenes[s].nodes.size(); ++i) {
       const int node = doc.scenes[s].nodes[i];
       if (doc.nodes[std::size_t(node)].parent >= 0)
-        check.fail(fmt::format("/scenes/{}/nodes/{}", s, i), fmt::format("node {} is no root: it has the parent {}", node, doc.nodes[std::size_t(node)].parent));
+        check.fail(fmt::format("/scenes/{}/nodes/{}", s, i),
+                   fmt::format("node {} is no root: it has the parent {}", node, doc.nodes[std::size_t(node)].parent));
     }
 }
 
@@ -86,7 +90,9 @@ struct Walk {
       }
     }
   }
-  [[nodiscard]] bool above(int a, int b) const { return in[std::size_t(a)] <= in[std::size_t(b)] && in[std::size_t(b)] < out[std::size_t(a)]; }
+  [[nodiscard]] bool above(int a, int b) const {
+    return in[std::size_t(a)] <= in[std::size_t(b)] && in[std::size_t(b)] < out[std::size_t(a)];
+  }
 };
 
 void checkSkin(Check& check, Document& doc, const Walk& walk, std::size_t index) {
@@ -102,8 +108,10 @@ void checkSkin(Check& check, Document& doc, const Walk& walk, std::size_t index)
   const Accessor& a = doc.accessors[std::size_t(s.inverseBindMatrices)];
   const std::string place = path + "/inverseBindMatrices";
   if (a.shape != Shape::Mat4 || a.component != Component::F32)
-    return check.fail(place, fmt::format("accessor {} is {}, not MAT4 of FLOAT", s.inverseBindMatrices, formatName(a.shape, a.component, a.normalized)));
-  if (a.count < s.joints.size()) return check.fail(place, fmt::format("{} matrices for {} joints", a.count, s.joints.size()));
+    return check.fail(place, fmt::format("accessor {} is {}, not MAT4 of FLOAT", s.inverseBindMatrices,
+                                         formatName(a.shape, a.component, a.normalized)));
+  if (a.count < s.joints.size())
+    return check.fail(place, fmt::format("{} matrices for {} joints", a.count, s.joints.size()));
   useView(check, doc, a.view, Usage::Skin, place);
 }
 

@@ -1,0 +1,360 @@
+// What the reader makes of each thing that a glTF file can bring.
+#include "gltf_fixture.h"
+
+using namespace gltf_test;
+using burnish::asset::AlphaMode;
+using burnish::asset::Light;
+using Indices = std::vector<std::uint32_t>;
+
+namespace {
+const Sandbox& box() {
+  static const Sandbox sandbox;
+  return sandbox;
+}
+Reading readJson(Json json) {
+  json["asset"] = {{"version", "2.0"}};
+  return read(box().put("file.gltf", json.dump()));
+}
+const burnish::asset::Primitive& only(const Reading& r) {
+  INFO(r.message());
+  REQUIRE(r.asset);
+  REQUIRE(r.asset->meshes.at(0).primitives.size() == 1);
+  return r.asset->meshes[0].primitives[0];
+}
+}  // namespace
+
+TEST_CASE("strips, fans and lists without indices become indexed lists", "[gltf]") {
+  struct Row {
+    int mode, vertices;
+    Indices expected;
+  };
+  for (const Row& row : {Row{4, 6, {0, 1, 2, 3, 4, 5}}, Row{5, 5, {0, 1, 2, 1, 3, 2, 2, 3, 4}},
+                         Row{6, 5, {1, 2, 0, 2, 3, 0, 3, 4, 0}}, Row{4, 8, {0, 1, 2, 3, 4, 5}}}) {
+    MeshFile f;
+    f.positions(row.vertices);
+    f.primitive["mode"] = row.mode;
+    const Reading r = f.readIn(box());
+    CHECK(only(r).indices == row.expected);
+    CHECK(only(r).positions[2] == glm::vec3(2, 4, 0));
+    CHECK(r.warned("multiple of 3") == (row.vertices == 8));
+  }
+  for (const int mode : {0, 1, 2, 3}) {
+    MeshFile f;
+    f.positions(4);
+    f.primitive["mode"] = mode;
+    const Reading r = f.readIn(box());
+    REQUIRE(r.asset);
+    CHECK(r.asset->meshes[0].primitives.empty());
+    CHECK(r.warned("points and lines"));
+  }
+}
+
+TEST_CASE("indices of all sizes; out of range and restart values are refused", "[gltf]") {
+  const auto with = [](int component, const std::string& data, int vertices, std::size_t count = 3) {
+    MeshFile f;
+    f.positions(vertices);
+    f.primitive["indices"] = f.accessor("SCALAR", component, count, data);
+    return f.readIn(box());
+  };
+  CHECK(only(with(5121, bytes<std::uint8_t>({2, 1, 0}), 3)).indices == Indices{2, 1, 0});
+  CHECK(only(with(5123, bytes<std::uint16_t>({2, 1, 0}), 3)).indices == Indices{2, 1, 0});
+  CHECK(only(with(5125, bytes<std::uint32_t>({2, 1, 0}), 3)).indices == Indices{2, 1, 0});
+  CHECK(with(5123, bytes<std::uint16_t>({2, 3, 0}), 3).message().find("/meshes/0/primitives/0/indices") !=
+        std::string::npos);
+  CHECK(with(5121, bytes<std::uint8_t>({2, 255, 0}), 300).message().find("restart") != std::string::npos);
+  CHECK(with(5125, bytes<std::uint32_t>({2, 0xffffffffu, 0}), 3).message().find("restart") != std::string::npos);
+}
+
+TEST_CASE("few indices into a large vertex buffer take only their vertices", "[gltf]") {
+  MeshFile f;
+  f.positions(100);
+  f.primitive["indices"] = f.accessor("SCALAR", 5121, 6, bytes<std::uint8_t>({90, 10, 50, 10, 90, 51}));
+  const Reading r = f.readIn(box());
+  const auto& p = only(r);
+  CHECK(p.positions == std::vector<glm::vec3>{{10, 100, 0}, {50, 2500, 0}, {51, 2601, 0}, {90, 8100, 0}});
+  CHECK(p.indices == Indices{3, 0, 1, 0, 3, 2});
+}
+
+TEST_CASE("normalized and quantized attributes", "[gltf]") {
+  MeshFile f;
+  f.positions(3);
+  f.attribute("TEXCOORD_0",
+              f.accessor("VEC2", 5121, 3, bytes<std::uint8_t>({0, 255, 0, 0, 51, 102, 0, 0, 255, 0, 0, 0}),
+                         {{"normalized", true}}));
+  f.json["bufferViews"][1]["byteStride"] = 4;
+  f.attribute("COLOR_0", f.accessor("VEC3", 5123, 3,
+                                    bytes<std::uint16_t>({65535, 0, 13107, 0, 0, 0, 0, 0, 65535, 65535, 65535, 0}),
+                                    {{"normalized", true}}));
+  f.json["bufferViews"][2]["byteStride"] = 8;
+  const Reading plain = f.readIn(box());
+  const auto& p = only(plain);
+  CHECK(p.uv0[0] == glm::vec2(0, 1));
+  CHECK(p.uv0[1].x == Approx(0.2));
+  CHECK(p.uv0[1].y == Approx(0.4));
+  CHECK(p.colors[0].x == 1);
+  CHECK(p.colors[0].z == Approx(0.2));
+  CHECK(p.colors[0].w == 1);
+
+  MeshFile q;
+  q.attribute("POSITION", q.accessor("VEC3", 5122, 3, bytes<std::int16_t>({-5, 7, 9, 0, 1, 2, 3, 0, 4, 5, 6, 0}),
+                                     {{"min", {-5, 2, 3}}, {"max", {4, 7, 9}}}));
+  q.attribute("NORMAL", q.accessor("VEC3", 5120, 3, bytes<std::int8_t>({127, -128, 0, 0, 0, 127, 0, 0, 0, 0, 127, 0}),
+                                   {{"normalized", true}}));
+  q.json["bufferViews"][0]["byteStride"] = 8;
+  q.json["bufferViews"][1]["byteStride"] = 4;
+  CHECK(q.readIn(box()).message().find("/attributes/NORMAL") != std::string::npos);  // not without the extension
+  q.json["extensionsUsed"] = q.json["extensionsRequired"] = {"KHR_mesh_quantization"};
+  q.json["accessors"][0]["min"] = {-5, 1, 2};
+  const Reading r = q.readIn(box());
+  CHECK(only(r).positions[0] == glm::vec3(-5, 7, 9));
+  CHECK(only(r).normals[0] == glm::vec3(1, -1, 0));
+}
+
+TEST_CASE("sparse accessors replace elements of a view or of zeros", "[gltf]") {
+  for (const bool onZeros : {false, true}) {
+    MeshFile f;
+    f.positions(3);
+    const int indices = f.accessor("SCALAR", 5123, 2, bytes<std::uint16_t>({0, 2}));
+    const int values = f.accessor("VEC3", 5126, 2, bytes<float>({9, 8, 7, 6, 5, 4}));
+    Json& a = f.json["accessors"][0];
+    a["sparse"] = {{"count", 2},
+                   {"indices", {{"bufferView", indices}, {"componentType", 5123}}},
+                   {"values", {{"bufferView", values}}}};
+    a["max"] = {9, 9, 9};
+    if (onZeros) a.erase("bufferView");
+    f.json["accessors"].erase(1);
+    f.json["accessors"].erase(1);
+    const Reading r = f.readIn(box());
+    const glm::vec3 kept = onZeros ? glm::vec3(0) : glm::vec3(1, 1, 0);
+    CHECK(only(r).positions == std::vector<glm::vec3>{{9, 8, 7}, kept, {6, 5, 4}});
+    f.binary[36] = 2;  // indices 2, 2
+    CHECK(f.readIn(box()).message().find("/accessors/0/sparse/indices") != std::string::npos);
+    f.binary[36] = 3;  // 3 of 3
+    CHECK(f.readIn(box()).message().find("/accessors/0/sparse/indices") != std::string::npos);
+  }
+}
+
+TEST_CASE("numbers that are not finite or break their bounds are refused at their accessor", "[gltf]") {
+  for (const float bad : {NAN, INFINITY, -INFINITY}) {
+    MeshFile f;
+    f.positions(3);
+    f.attribute("NORMAL", f.accessor("VEC3", 5126, 3, bytes<float>({0, 0, 1, 0, bad, 1, 0, 0, 1})));
+    CHECK(f.readIn(box()).message().find("/accessors/1") != std::string::npos);
+  }
+  MeshFile f;
+  f.positions(3);
+  f.json["accessors"][0]["max"] = {2, 3, 0};
+  CHECK(f.readIn(box()).message().find("/accessors/0/max/1") != std::string::npos);
+  f.json["accessors"][0]["max"] = {2, 3.999, 0};  // rounded by the writer
+  CHECK(f.readIn(box()).message().empty());
+  CHECK(read(box().put("n.gltf", R"({"asset":{"version":"2.0"},"nodes":[{"scale":[1,1e999,1]}]})"))
+            .message()
+            .find("/nodes/0/scale/1") != std::string::npos);
+  CHECK(readJson({{"nodes", {{{"scale", {1, 1e39, 1}}}}}}).message().find("/nodes/0/scale/1") != std::string::npos);
+  CHECK(readJson({{"nodes", {{{"scale", {1e30, 1, 1}}, {"children", {1}}}, {{"scale", {1e30, 1, 1}}}}}})
+            .message()
+            .find("/nodes/1") != std::string::npos);
+}
+
+TEST_CASE("colours are clamped, odd tangents mended, surplus attributes named", "[gltf]") {
+  MeshFile f;
+  f.positions(3);
+  f.attribute("COLOR_0", f.accessor("VEC4", 5126, 3, bytes<float>({2, 0.5f, -1, 1, 0, 0, 0, 0, 1, 1, 1, 1})));
+  f.attribute("NORMAL", f.accessor("VEC3", 5126, 3, bytes<float>({0, 0, 1, 0, 0, 1, 0, 0, 1})));
+  f.attribute("TANGENT", f.accessor("VEC4", 5126, 3, bytes<float>({1, 0, 0, -0.5f, 0, 0, 0, 0, 1, 0, 0, 1})));
+  for (const char* uv : {"TEXCOORD_0", "TEXCOORD_1", "TEXCOORD_2"})
+    f.attribute(uv, f.accessor("VEC2", 5126, 3, std::string(24, '\0')));
+  f.attribute("_OURS", f.accessor("SCALAR", 5126, 3, std::string(12, '\0')));
+  const Reading r = f.readIn(box());
+  const auto& p = only(r);
+  CHECK(p.colors[0] == glm::vec4(1, 0.5, 0, 1));
+  CHECK(p.tangents[0].w == -1);
+  CHECK(p.tangents[1].w == 1);
+  CHECK(p.uv1.size() == 3);
+  CHECK(r.warned("colours outside 0 to 1"));
+  CHECK(r.warned("tangents whose w"));
+  CHECK(r.warned("TEXCOORD_2"));
+  CHECK(r.report.warnings().size() == 3);
+}
+
+TEST_CASE("materials and their extensions", "[gltf]") {
+  box().put("a.png", kPng);
+  const Json transform = {
+      {"KHR_texture_transform", {{"offset", {0.5, 1}}, {"scale", {2, 3}}, {"rotation", 0.25}, {"texCoord", 1}}}};
+  Json file = {
+      {"extensionsUsed",
+       {"KHR_texture_transform", "KHR_materials_ior", "KHR_materials_specular", "KHR_materials_emissive_strength",
+        "KHR_materials_unlit", "KHR_materials_pbrSpecularGlossiness", "KHR_materials_sheen", "EXT_something"}},
+      {"images", {{{"uri", "a.png"}}, {{"uri", "a.png"}}}},
+      {"samplers", {{{"magFilter", 9728}, {"minFilter", 9985}, {"wrapS", 33071}, {"wrapT", 33648}}}},
+      {"textures", {{{"source", 0}, {"sampler", 0}}}}};
+  file["materials"] = {
+      {{"name", "first"},
+       {"pbrMetallicRoughness",
+        {{"baseColorFactor", {0.1, 0.2, 0.3, 0.4}},
+         {"metallicFactor", 0.5},
+         {"roughnessFactor", 0.25},
+         {"baseColorTexture", {{"index", 0}, {"extensions", transform}}}}},
+       {"normalTexture", {{"index", 0}, {"scale", 2}}},
+       {"occlusionTexture", {{"index", 0}, {"strength", 0.5}}},
+       {"emissiveFactor", {1, 0.5, 0}},
+       {"alphaMode", "MASK"},
+       {"alphaCutoff", 0.75},
+       {"doubleSided", true},
+       {"extensions",
+        {{"KHR_materials_ior", {{"ior", 1.25}}},
+         {"KHR_materials_emissive_strength", {{"emissiveStrength", 10}}},
+         {"KHR_materials_specular", {{"specularFactor", 0.5}, {"specularColorFactor", {1, 2, 3}}}}}}},
+      {{"extensions", {{"KHR_materials_unlit", Json::object()}}}},
+      {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}},
+       {"extensions",
+        {{"KHR_materials_pbrSpecularGlossiness",
+          {{"diffuseFactor", {0.5, 0.5, 0.5, 1}}, {"glossinessFactor", 0.3}, {"specularFactor", {0.1, 0.2, 0.3}}}}}}}};
+  const Reading r = readJson(file);
+  INFO(r.message());
+  REQUIRE(r.asset);
+  const auto& m = r.asset->materials[0];
+  CHECK(m.baseColor == glm::vec4(0.1f, 0.2f, 0.3f, 0.4f));
+  CHECK((m.metallic == 0.5f && m.roughness == 0.25f && m.doubleSided && !m.unlit));
+  CHECK((m.alphaMode == AlphaMode::Mask && m.alphaCutoff == 0.75f));
+  CHECK(m.emissive == glm::vec3(10, 5, 0));
+  CHECK((m.ior == 1.25f && m.specular == 0.5f && m.specularColor == glm::vec3(1, 2, 3)));
+  CHECK((m.normalTexture.strength == 2 && m.occlusionTexture.strength == 0.5f));
+  const auto& t = m.baseColorTexture;
+  CHECK((t.offset == glm::vec2(0.5, 1) && t.scale == glm::vec2(2, 3) && t.rotation == 0.25f && t.uvSet == 1));
+  CHECK(r.asset->materials[1].unlit);
+  const auto& sg = r.asset->materials[2];
+  CHECK((sg.specularGlossiness && sg.glossiness == 0.3f && sg.specularF0 == glm::vec3(0.1f, 0.2f, 0.3f) &&
+         !sg.baseColorTexture));
+  const auto& s = r.asset->samplers[0];
+  CHECK((!s.magnifyLinear && s.minifyLinear && !s.mipLinear && s.mips));
+  CHECK((s.wrapS == burnish::asset::Wrap::ClampToEdge && s.wrapT == burnish::asset::Wrap::MirroredRepeat));
+  CHECK(r.decoded == 1);  // used three times, decoded once; the other picture is not used
+  CHECK(r.warned("'KHR_materials_sheen'"));
+  CHECK(r.warned("'EXT_something'"));
+  CHECK(r.report.warnings().size() == 2);
+
+  file["materials"][0]["extensions"]["KHR_materials_ior"]["ior"] = 0.5;
+  CHECK(readJson(file).message().find("/materials/0/extensions/KHR_materials_ior/ior") != std::string::npos);
+  file["extensionsRequired"] = {"EXT_something"};
+  CHECK(readJson(file).message().find("/extensionsRequired/0: the file requires extension 'EXT_something'") !=
+        std::string::npos);
+}
+
+TEST_CASE("damaged pictures are warnings that name them", "[gltf]") {
+  box().put("good.png", kPng);
+  box().put("damaged.png", "not a picture at all");
+  Json file = {
+      {"images", {{{"uri", "good.png"}}, {{"uri", "damaged.png"}}, {{"uri", "data:image/png;base64,iVBORw0KGgo="}}}},
+      {"textures", {{{"source", 0}}, {{"source", 1}}, {{"source", 2}}, Json::object()}}};
+  for (int i = 0; i < 4; ++i) file["materials"].push_back({{"emissiveTexture", {{"index", i}}}});
+  const Reading r = readJson(file);
+  INFO(r.message());
+  REQUIRE(r.asset);
+  for (int i = 0; i < 4; ++i) CHECK(bool(r.asset->materials[std::size_t(i)].emissiveTexture) == (i == 0 || i == 2));
+  CHECK(r.warned("damaged.png"));
+  CHECK(r.report.warnings().size() == 2);
+  file["images"][2]["uri"] = "data:image/png;base64,iVBOR*0KGgo=";
+  CHECK(readJson(file).message().find("/images/2/uri") != std::string::npos);
+}
+
+TEST_CASE("nodes: parents first, matrices and TRS, the default scene only", "[gltf]") {
+  const Json file = {
+      {"scene", 1},
+      {"scenes", {{{"nodes", {0}}}, {{"nodes", {3, 1}}, {"extras", {{"burnish", {{"environment", "sky.hdr"}}}}}}}},
+      {"nodes",
+       {{{"name", "not shown"}},
+        {{"name", "root"},
+         {"children", {2}},
+         {"translation", {1, 2, 3}},
+         {"scale", {2, 3, 4}},
+         {"rotation", {0, 0, 2e-1, 0}}},
+        {{"name", "child"}, {"matrix", {1, 0, 0, 0, 0.5, -1, 0, 0, 0, 0, 0, 0, 7, 8, 9, 1}}},
+        {{"name", "other"}}}}};
+  box().put("sky.hdr", "x");
+  const Reading r = readJson(file);
+  INFO(r.message());
+  REQUIRE(r.asset);
+  const auto& n = r.asset->nodes;
+  REQUIRE(n.size() == 3);
+  CHECK((n[0].name == "other" && n[1].name == "root" && n[2].name == "child"));
+  CHECK((n[1].parent == -1 && n[2].parent == 1));
+  CHECK(n[1].local == glm::dmat4(-2, 0, 0, 0, 0, -3, 0, 0, 0, 0, 4, 0, 1, 2, 3, 1));
+  CHECK(n[2].local == glm::dmat4(1, 0, 0, 0, 0.5, -1, 0, 0, 0, 0, 0, 0, 7, 8, 9, 1));
+  CHECK(r.asset->environment == "sky.hdr");
+  CHECK(r.warned("quaternion"));
+  CHECK(readJson({{"nodes", {Json::object(), {{"children", {0}}}}}}).asset->nodes.size() == 2);  // no scenes: all roots
+}
+
+TEST_CASE("cameras and lights", "[gltf]") {
+  Json file = {{"extensionsUsed", {"KHR_lights_punctual"}},
+               {"cameras",
+                {{{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}},
+                 {{"type", "orthographic"}, {"orthographic", {{"xmag", 4}, {"ymag", 2}, {"znear", 0}, {"zfar", 9}}}},
+                 {{"type", "perspective"}, {"perspective", {{"yfov", 4}, {"znear", 0.1}}}}}},
+               {"nodes", {{{"camera", 1}, {"extensions", {{"KHR_lights_punctual", {{"light", 1}}}}}}}}};
+  file["extensions"]["KHR_lights_punctual"]["lights"] = {
+      {{"type", "directional"}, {"intensity", 3}},
+      {{"type", "spot"},
+       {"color", {1, 0.5, 0.25}},
+       {"range", 7},
+       {"spot", {{"innerConeAngle", 0.1}, {"outerConeAngle", 1.5707964}}}}};
+  const Reading r = readJson(file);
+  INFO(r.message());
+  REQUIRE(r.asset);
+  CHECK((r.asset->nodes[0].camera == 1 && r.asset->nodes[0].light == 1));
+  CHECK((r.asset->cameras[0].fovY == 1 && r.asset->cameras[0].far == 0));
+  CHECK((r.asset->cameras[1].orthographic && r.asset->cameras[1].ymag == 2 && r.asset->cameras[1].aspect == 2));
+  CHECK((r.asset->cameras[2].fovY < 3.1416 && r.warned("too wide")));
+  const auto& l = r.asset->lights;
+  CHECK((l[0].kind == Light::Kind::Directional && l[0].intensity == 3));
+  CHECK((l[1].kind == Light::Kind::Spot && l[1].range == 7 && l[1].outerCone <= 1.5707964f && l[1].innerCone == 0.1f));
+  file["extensions"]["KHR_lights_punctual"]["lights"][1]["spot"]["innerConeAngle"] = 1.58;
+  CHECK(readJson(file).message().find("/extensions/KHR_lights_punctual/lights/1/spot") != std::string::npos);
+}
+
+TEST_CASE("skins, morph targets and animations are named and left out", "[gltf]") {
+  MeshFile f;
+  f.positions(3);
+  f.attribute("JOINTS_0", f.accessor("VEC4", 5121, 3, std::string(12, '\0')));
+  f.attribute("WEIGHTS_0", f.accessor("VEC4", 5126, 3, std::string(48, '\0')));
+  f.primitive["targets"] = {{{"POSITION", 0}}};
+  f.json["skins"] = {{{"joints", {0}}}};
+  f.json["nodes"][0]["skin"] = 0;
+  const int times = f.accessor("SCALAR", 5126, 2, bytes<float>({0, 1}), {{"min", {0}}, {"max", {1}}});
+  const int path = f.accessor("VEC3", 5126, 2, std::string(24, '\0'));
+  f.json["animations"] = {{{"samplers", {{{"input", times}, {"output", path}}}},
+                           {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}}}};
+  const Reading r = f.readIn(box());
+  only(r);
+  CHECK((r.warned("skins are not") && r.warned("morph targets are not") && r.warned("animations are not")));
+}
+
+TEST_CASE("GLB: chunk and data URI", "[gltf]") {
+  MeshFile f;
+  f.positions(3);
+  f.json["meshes"] = {{{"primitives", {f.primitive}}}};
+  f.json["buffers"] = {{{"byteLength", f.binary.size()}}};
+  const Reading chunk = read(box().put("chunk.glb", glb(f.json.dump(), f.binary)));
+  CHECK(only(chunk).positions.size() == 3);
+  CHECK(chunk.asset->name == "chunk.glb");
+  CHECK(only(read(box().put("named.gltf", glb(f.json.dump(), f.binary)))).positions.size() ==
+        3);  // told by its magic, not its name
+  f.json["buffers"][0]["uri"] = "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAgD8AAAAAAAAAQAAAgEAAAAAA";
+  const Reading uri = read(box().put("uri.gltf", f.json.dump()));
+  CHECK(only(uri).positions == only(chunk).positions);
+}
+
+TEST_CASE("faults of JSON text name their line, its values their path", "[gltf]") {
+  CHECK(read(box().put("j.gltf", "{\"asset\":\n  {\"version\" \"2.0\"}}")).message().find("line 2") !=
+        std::string::npos);
+  CHECK(read(box().put("j.gltf", "")).message().find("empty") != std::string::npos);
+  CHECK(read(box().put("j.gltf", R"({"asset":{"version":"2.0"},"nodes":[{},{"name":"a","name":"b"}]})"))
+            .message()
+            .find("/nodes/1/name: the name is given twice") != std::string::npos);
+  CHECK(read(box().put("j.gltf", R"({"asset":{"version":"2.0"},"scene":-1})")).message().find("/scene") !=
+        std::string::npos);
+  CHECK(read(box().folder() / "missing.gltf").message().find("missing.gltf") != std::string::npos);
+  burnish::Report report;
+  CHECK_FALSE(burnish::asset::readGltf(box().put("j.gltf", "{}"), {}, report));  // no decoder
+}
