@@ -1,9 +1,10 @@
 // The light of a lat-long picture: a cube whose levels match the Blinn-Phong lobe, and irradiance in spherical harmonics.
 // A plain direct sum; correct, not fast.
 #pragma once
-#include <burnish/scene.h>
+#include <burnish/image.h>
 
 #include <array>
+#include <glm/glm.hpp>
 #include <vector>
 
 namespace burnish::prefilter {

@@ -14,7 +14,7 @@
 #include "shading/default_path.h"
 #include "shading/environment.h"
 #include "interface/layout.h"
-#include "lighting/surface.glsl"
+#include "interface/surface.glsl"
 
 #if ENVIRONMENT
 layout(binding = UNIT_ENVIRONMENT) uniform samplerCube environmentCube;

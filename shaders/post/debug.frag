@@ -7,7 +7,7 @@
 #include "shading/surface.h"
 #include "shading/tonemap.h"
 #include "interface/layout.h"
-#include "lighting/surface.glsl"
+#include "interface/surface.glsl"
 #if VIEW == 9
 layout(binding = UNIT_LIGHT_BUFFER) uniform sampler2D lightBuffer;
 #endif
