@@ -187,7 +187,7 @@ void Builder::addGeometry() {
 }
 
 void Builder::addLighting() {
-  if (!geometry_ || !(lit_ || lightsView_)) return;
+  if (!geometry_ || !((lit_ && final_) || lightsView_)) return;
   const bool local = needs_.localLights > 0;
   PassPlan bounds{"tiles", {"depth", "lights"}, {"light lists"}, {}};
   if (reduceDepth()) {
