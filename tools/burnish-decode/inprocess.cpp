@@ -23,6 +23,7 @@ class InProcessDecoder final : public ImageDecoder {
  public:
   InProcessDecoder() { decode::prepareOpenImageIo(); }
 
+  [[nodiscard]] int concurrency() const override { return 2; }
   Result<Image> decode(std::span<const std::byte> file, std::string_view name, const DecodeLimits& limits) override {
     VectorSink sink;
     auto decoded = decode::decodePicture(file, name, limits, sink);
