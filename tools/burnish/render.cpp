@@ -98,6 +98,14 @@ Result<burnish::Image> draw(Session& session, const LoadedScene& loaded, const R
   return picture;
 }
 
+/// How radiance became the picture, for people.
+std::string development(const RenderArguments& arguments, float exposureEv) {
+  if (arguments.debugView != burnish::DebugView::Final) return fmt::format("view {}", burnish::debugViewNames()[std::size_t(arguments.debugView)]);
+  if (arguments.outputKind() == burnish::Output::Linear) return "linear";
+  if (arguments.scene.quality.exposureEv) return fmt::format("EV100 {:.2f}", exposureEv);
+  return exposureEv == 0 ? "automatic exposure" : fmt::format("EV100 {:.2f}, automatic", exposureEv);
+}
+
 int run(const RenderArguments& arguments) {
   for (const std::string& file : {arguments.output, arguments.json})
     if (!file.empty() && file != "-")
@@ -128,7 +136,7 @@ int run(const RenderArguments& arguments) {
   if (!written) return printError(written.error());
   if (arguments.json == "-") return kOk;
   report.print();
-  fmt::print("{} ({}x{}, {}, EV100 {:.2f})\n", shown(arguments.output), report.size.x, report.size.y, loaded->cameraName, report.exposureEv);
+  fmt::print("{} ({}x{}, {}, {})\n", shown(arguments.output), report.size.x, report.size.y, loaded->cameraName, development(arguments, report.exposureEv));
   return kOk;
 }
 
