@@ -252,10 +252,10 @@ TEST_CASE("Helpers end with a program that is killed", "[decode][pool]") {
   REQUIRE(::read(ends[0], &answer, 1) == 1);
   CHECK(answer == 'y');
   const auto helpers = Watch::under(child);
-  REQUIRE(helpers.size() == 2);
-  ::kill(helpers[1].pid, SIGSTOP);  // even one that does not listen
+  if (helpers.size() == 2) ::kill(helpers[1].pid, SIGSTOP);  // even one that does not listen
   ::kill(child, SIGKILL);
   ::waitpid(child, nullptr, 0);
+  CHECK(helpers.size() == 2);
   CHECK(within(std::chrono::seconds(5), [&] {
     return std::none_of(helpers.begin(), helpers.end(), [](const Process& p) { return exists(p.pid); });
   }));
