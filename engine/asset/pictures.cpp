@@ -2,6 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <atomic>
+#include <mutex>
+#include <system_error>
+#include <thread>
+
 #include "asset/uri.h"
 #include "core/file.h"
 
@@ -55,65 +60,140 @@ std::filesystem::path resolve(Check& check, const Source& source, const std::str
   return {};
 }
 
-class Loader {
- public:
-  Loader(Check& check, const Document& doc, Source& source, ImageDecoder& decoder)
-      : check_(check), doc_(doc), source_(source), decoder_(decoder) {}
+struct Job {
+  std::size_t index = 0;
+  std::span<const std::byte> bytes;  // of a buffer view or of `data`
+  std::vector<std::byte> data;
+  const std::string* uri = nullptr;  // read when its turn comes, so that few files are in memory at a time
+};
 
-  void load(std::size_t index, bool used, Picture& out) {
+// What is to be decoded; faults of paths and data URIs come to light here.
+class Collector {
+ public:
+  Collector(Check& check, Document& doc, const Source& source) : check_(check), doc_(doc), source_(source) {}
+
+  void add(std::size_t index, bool used) {
     const PictureSource& p = doc_.pictures[index];
-    out.name = p.name;
     if (p.view >= 0) {
       const auto bytes = bytesOf(doc_, p.view);
       if (used && bytes.empty())
         check_.warn(imagePath(index), "the picture's buffer has no data: materials go on without it");
-      if (used && !bytes.empty()) decode(index, bytes, out);
+      else if (used)
+        jobs.push_back({index, bytes, {}, nullptr});
     } else if (uriKind(*p.uri) == UriKind::Data) {
       auto data = decodeDataUri(*p.uri);
       if (!data) return check_.fail(imagePath(index, "/uri"), data.error().what);
-      if (used) decode(index, data->bytes, out);
+      if (!used) return;
+      jobs.push_back({index, {}, std::move(data->bytes), nullptr});
+      jobs.back().bytes = jobs.back().data;
     } else {
       const auto file = resolve(check_, source_, *p.uri, index, used);
-      if (used && check_.ok() && !file.empty()) loadFile(index, file, out);
+      if (!used || !check_.ok() || file.empty()) return;
+      const auto [first, fresh] = files_.try_emplace(file.native(), index);
+      if (fresh)
+        jobs.push_back({index, {}, {}, p.uri});
+      else
+        same_[int(index)] = int(first->second);
     }
+  }
+  void shareSameFiles() {
+    for (Texture& t : doc_.textures)
+      if (const auto same = same_.find(t.picture); same != same_.end()) t.picture = same->second;
+  }
+  std::vector<Job> jobs;
+
+ private:
+  Check& check_;
+  Document& doc_;
+  const Source& source_;
+  std::map<std::string, std::size_t> files_;  // canonical path to the first image that names it
+  std::map<int, int> same_;
+};
+
+// Decodes the jobs on one thread or two; answers stand at the jobs' places, so that reports do not depend on who was
+// faster.
+class Decoding {
+ public:
+  Decoding(const Document& doc, Source& source, ImageDecoder& decoder, const std::vector<Job>& jobs)
+      : doc_(doc), source_(source), decoder_(decoder), jobs_(jobs), answers_(jobs.size()) {}
+
+  std::vector<Result<Image>> run() {
+    std::jthread second;  // joins before the answers are handed over, whatever happens
+    if (decoder_.concurrency() > 1 && jobs_.size() > 1) {
+      try {
+        second = std::jthread([this] { work(); });
+      } catch (const std::system_error&) {  // no second thread to be had: one does it all
+      }
+    }
+    work();
+    if (second.joinable()) second.join();
+    return std::move(answers_);
   }
 
  private:
-  void loadFile(std::size_t index, const std::filesystem::path& file, Picture& out) {
-    auto bytes =
-        core::readFileInside(source_.folder, *doc_.pictures[index].uri, source_.allowOutside, source_.bytesLeft);
-    if (!bytes)
-      return check_.warn(imagePath(index), fmt::format("picture {}: {}: materials go on without it",
-                                                       file.filename().string(), bytes.error().what));
-    source_.bytesLeft -= bytes->size();
-    decode(index, *bytes, out);
+  void work() {
+    for (std::size_t i = next_++; i < jobs_.size(); i = next_++) {
+      try {
+        answers_[i] = decode(jobs_[i]);
+      } catch (const std::exception&) {
+        answers_[i] = fail("", "there is not enough memory");
+      }
+    }
   }
 
-  void decode(std::size_t index, std::span<const std::byte> bytes, Picture& out) {
+  Result<Image> decode(const Job& job) {
+    if (!job.uri) return decode(job.bytes, job.index);
+    std::unique_lock lock(budget_);
+    auto bytes = core::readFileInside(source_.folder, *job.uri, source_.allowOutside, source_.bytesLeft);
+    if (bytes) source_.bytesLeft -= bytes->size();
+    lock.unlock();
+    return bytes ? decode(*bytes, job.index) : fail(bytes.error());
+  }
+
+  Result<Image> decode(std::span<const std::byte> bytes, std::size_t index) {
     DecodeLimits limits;
-    limits.maxBytes = std::min(limits.maxBytes, decodedLeft_);
-    auto image = decoder_.decode(bytes, out.name, limits);
-    if (!image)
-      return check_.warn(imagePath(index), fmt::format("picture {} cannot be used: {}: materials go on without it",
-                                                       out.name, image.error().what));
-    decodedLeft_ -= std::min<std::uint64_t>(decodedLeft_, image->byteSize());
-    out.pixels = std::move(*image);
+    {
+      const std::lock_guard lock(budget_);
+      limits.maxBytes = std::min(limits.maxBytes, decodedLeft_);
+    }
+    auto image = decoder_.decode(bytes, doc_.pictures[index].name, limits);
+    const std::lock_guard lock(budget_);
+    if (image) decodedLeft_ -= std::min<std::uint64_t>(decodedLeft_, image->byteSize());
+    return image;
   }
 
-  Check& check_;
   const Document& doc_;
   Source& source_;
   ImageDecoder& decoder_;
+  const std::vector<Job>& jobs_;
+  std::vector<Result<Image>> answers_;
+  std::atomic<std::size_t> next_ = 0;
+  std::mutex budget_;
   std::uint64_t decodedLeft_ = std::uint64_t(8) << 30;  // pixels of all pictures together, bytes
 };
 
 }  // namespace
 
-std::vector<Picture> loadPictures(Check& check, const Document& doc, Source& source, ImageDecoder& decoder) {
+std::vector<Picture> loadPictures(Check& check, Document& doc, Source& source, ImageDecoder& decoder) {
   std::vector<Picture> out(doc.pictures.size());
   const std::vector<bool> used = usedPictures(doc);
-  Loader loader(check, doc, source, decoder);
-  for (std::size_t i = 0; check.ok() && i < out.size(); ++i) loader.load(i, used[i], out[i]);
+  Collector collector(check, doc, source);
+  for (std::size_t i = 0; check.ok() && i < out.size(); ++i) {
+    out[i].name = doc.pictures[i].name;
+    collector.add(i, used[i]);
+  }
+  if (!check.ok()) return out;
+  collector.shareSameFiles();
+  auto images = Decoding(doc, source, decoder, collector.jobs).run();
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    Picture& picture = out[collector.jobs[i].index];
+    if (images[i])
+      picture.pixels = std::move(*images[i]);
+    else
+      check.warn(imagePath(collector.jobs[i].index),
+                 fmt::format("picture {} cannot be used: {}: materials go on without it", picture.name,
+                             images[i].error().what));
+  }
   return out;
 }
 

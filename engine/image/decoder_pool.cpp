@@ -46,6 +46,8 @@ class DecoderPool final : public ImageDecoder {
     for (Slot& slot : slots_) slot.worker.socket.reset();
   }
 
+  [[nodiscard]] int concurrency() const override { return std::max(options_.processes, 1); }
+
   Result<Image> decode(std::span<const std::byte> file, std::string_view name, const DecodeLimits& limits) override {
     auto header = readPictureHeader(file, name);
     if (!header) return fail(header.error());

@@ -1,4 +1,8 @@
 // What the reader makes of each thing that a glTF file can bring.
+#include <atomic>
+#include <chrono>
+#include <thread>
+
 #include "gltf_fixture.h"
 
 using namespace gltf_test;
@@ -256,6 +260,46 @@ TEST_CASE("damaged pictures are warnings that name them", "[gltf]") {
   CHECK(r.report.warnings().size() == 2);
   file["images"][2]["uri"] = "data:image/png;base64,iVBOR*0KGgo=";
   CHECK(readJson(file).message().find("/images/2/uri") != std::string::npos);
+}
+
+TEST_CASE("pictures are decoded on two threads where the decoder allows it, and reported in order", "[gltf]") {
+  class Slow final : public burnish::ImageDecoder {
+   public:
+    Result<burnish::Image> decode(std::span<const std::byte> file, std::string_view name,
+                                  const burnish::DecodeLimits&) override {
+      most = std::max(most.load(), ++now);
+      std::this_thread::sleep_for(std::chrono::milliseconds(file.size() == 1 ? 20 : 5));
+      --now;
+      if (file.size() < 3) return burnish::fail(std::string(name), "too short");
+      return burnish::Image{int(file.size()), 1, 1, burnish::PixelType::U8, std::vector<std::byte>(file.size())};
+    }
+    [[nodiscard]] int concurrency() const override { return allowed; }
+    std::atomic<int> now = 0, most = 0;
+    int allowed = 1;
+  };
+  Json file = {{"asset", {{"version", "2.0"}}}};
+  for (int i = 0; i < 8; ++i) {
+    const std::string name = "p" + std::to_string(i) + ".png";
+    box().put(name, std::string(std::size_t(i + 1), 'x'));
+    file["images"].push_back({{"uri", i == 7 ? "./p4.png" : name}});
+    file["textures"].push_back({{"source", i}});
+    file["materials"].push_back({{"emissiveTexture", {{"index", i}}}});
+  }
+  const fs::path path = box().put("threads.gltf", file.dump());
+  for (const int allowed : {1, 2, 16}) {
+    Slow decoder;
+    decoder.allowed = allowed;
+    Report report;
+    const auto asset = burnish::asset::readGltf(path, {.decoder = &decoder}, report);
+    REQUIRE(asset);
+    CHECK(decoder.most == std::min(allowed, 2));
+    REQUIRE(report.warnings().size() == 2);
+    CHECK(report.warnings()[0].place == "threads.gltf: /images/0");
+    CHECK(report.warnings()[1].place == "threads.gltf: /images/1");
+    for (int i = 2; i < 7; ++i) CHECK(asset->pictures[std::size_t(i)].pixels.width == i + 1);
+    CHECK(asset->textures[7].picture == 4);  // the same file under another name
+    CHECK(asset->pictures[7].pixels.empty());
+  }
 }
 
 TEST_CASE("nodes: parents first, matrices and TRS, the default scene only", "[gltf]") {

@@ -45,12 +45,14 @@ struct DecodeLimits {
 /// conversion, no premultiplication, no EXIF rotation (glTF 2.0, 3.8.2); HDR and EXR may hold infinities and NaN. An EXR's picture is
 /// its display window, zero where the file has no data. The two implementations of this project (makeDecoderPool here, and
 /// makeInProcessDecoder of decode_inprocess.h) are safe to call from several threads at a time; one of your own is called from one
-/// thread at a time.
+/// thread at a time unless its concurrency() says otherwise.
 class BURNISH_API ImageDecoder {
  public:
   virtual ~ImageDecoder() = default;
   /// `name` is used in errors only. Never throws; a damaged file is one clear Error.
   virtual Result<Image> decode(std::span<const std::byte> file, std::string_view name, const DecodeLimits& limits = {}) = 0;
+  /// How many calls of decode() may be under way at a time. Loaders use two threads at most, and one where this is 1.
+  [[nodiscard]] virtual int concurrency() const { return 1; }
 };
 
 struct DecoderPoolOptions {
