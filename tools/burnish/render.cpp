@@ -43,7 +43,9 @@ Result<Session> open(const RenderArguments& arguments) {
   session.context = std::move(*context);
   const burnish::ProcAddress address = session.context->procAddress();
   session.finish = reinterpret_cast<void (*)()>(address("glFinish"));
-  auto renderer = burnish::Renderer::create(address);
+  burnish::RendererOptions options;
+  options.debugOutput = true;  // GL errors are counted in the report
+  auto renderer = burnish::Renderer::create(address, options);
   if (!renderer) return fail(renderer.error());
   session.renderer = std::move(*renderer);
   auto target = burnish::OffscreenTarget::create(address, arguments.scene.size, arguments.outputKind());
