@@ -39,15 +39,15 @@ Result<void> drawInstances(FrameContext& c, plan::GeometryPass pass, bool occlus
   RasterState raster(gl);
   const gl::Program* used = nullptr;
   const gl::VertexArray* array = nullptr;
-  // At most eight variants: looked up once each.
-  std::array<const gl::Program*, 8> programs{};
+  // At most sixteen variants: looked up once each.
+  std::array<const gl::Program*, 16> programs{};
   for (std::size_t i = 0; i < c.visible.size(); ++i) {
     const scene::VisibleInstance& v = c.visible[i];
     const Material& material = materialOf(c, v);
     if (!wants(material)) continue;
     plan::GeometryVariant variant = plan::variantOf(material, *v.mesh);
-    if (!occlusionTarget) variant.occlusionMap = false;
-    const std::size_t key = std::size_t(variant.general) + 2 * std::size_t(variant.alphaTest) + 4 * std::size_t(variant.occlusionMap);
+    if (!occlusionTarget) variant.occlusionMap = variant.packed = false;
+    const std::size_t key = std::size_t(variant.general) + 2 * std::size_t(variant.alphaTest) + 4 * std::size_t(variant.occlusionMap) + 8 * std::size_t(variant.packed);
     if (!programs[key]) {
       const std::string name = plan::geometryProgram(pass, variant, occlusionTarget).name;
       programs[key] = c.programs.find(name);

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <cstring>
 
+#include "image/resample.h"
 #include "material/mips.h"
+#include "plan/variants.h"
 
 namespace burnish::gpu_scene {
 namespace {
@@ -93,6 +95,7 @@ void GpuScene::sweep(const Scene& scene) {
     for (std::uint32_t i = 0; i < textures_.size(); ++i)
       if (const Id<Texture> id = scene.textures.at(i); !id || id.generation != textures_[i].generation || scene.textures.revision(id) != textures_[i].revision) textures_[i] = {};
     textures_.resize(scene.textures.capacity());
+    packed_.clear();
     for (MaterialRow& m : materials_) m.complete = false;
     texturesRevision_ = scene.textures.revision();
   }
@@ -147,7 +150,9 @@ const MaterialBinding& GpuScene::material(const Scene& scene, Id<Material> id, R
     row.binding.texture[i] = defaults_[i].id();
     row.binding.sampler[i] = defaultMaterial_.sampler[i];
     if (!maps[i]) continue;
-    const TextureRow* t = texture(scene, maps[i], report);
+    const bool packs = i == 1 && plan::packsOcclusion(*m);
+    if (i == 2 && plan::packsOcclusion(*m)) continue;
+    const TextureRow* t = packs ? packedTexture(scene, maps[1], maps[2], report) : texture(scene, maps[i], report);
     if (!t) {
       row.complete = false;
     } else if (t->texture) {
@@ -167,7 +172,7 @@ const GpuScene::TextureRow* GpuScene::texture(const Scene& scene, Id<Texture> id
   if (row.revision == scene.textures.revision(id)) return &row;
   if (!admit(t->image.byteSize() * 4 / 3)) return nullptr;
   row = {scene.textures.revision(id), id.generation, {}, sampler(t->sampler)};
-  auto uploaded = uploadTexture(*t, report);
+  auto uploaded = uploadTexture(*t, nullptr);
   if (uploaded)
     row.texture = std::move(*uploaded);
   else
@@ -175,16 +180,58 @@ const GpuScene::TextureRow* GpuScene::texture(const Scene& scene, Id<Texture> id
   return &row;
 }
 
-Result<gl::Texture> GpuScene::uploadTexture(const Texture& t, Report&) {
-  const std::string place = fmt::format("texture '{}'", t.name);
-  if (t.image.empty() || t.image.type != PixelType::U8 || t.image.data.size() != t.image.byteSize() || t.image.channels < 1 || t.image.channels > 4)
-    return fail(place, "is empty, not 8 bit, or shorter than its size says", "give it an Image as makeImage makes it");
-  const KindFormat f = formatOf(t.kind, t.image.channels);
-  std::vector<Image> levels;
-  if (t.sampler.mips)
-    levels = material::buildMips(t.kind, withChannels(t.image, f.channels));
+const GpuScene::TextureRow* GpuScene::packedTexture(const Scene& scene, Id<Texture> normal, Id<Texture> occlusion, Report& report) {
+  const Texture* b = scene.textures.get(normal);
+  const Texture* c = scene.textures.get(occlusion);
+  if (!b || !c) return texture(scene, normal, report);
+  TextureRow& row = packed_[{normal.index, occlusion.index}];
+  if (row.revision) return &row;
+  if (!admit(b->image.byteSize() * 4 / 3)) return nullptr;
+  row = {scene.textures.revision(normal), normal.generation, {}, sampler(b->sampler)};
+  auto uploaded = uploadTexture(*b, c);
+  if (uploaded)
+    row.texture = std::move(*uploaded);
   else
-    levels.push_back(withChannels(t.image, f.channels));
+    report.warn(uploaded.error().place, uploaded.error().what + ": the material goes on without it");
+  return &row;
+}
+
+namespace {
+
+Result<void> checkImage(const Texture& t) {
+  if (t.image.empty() || t.image.type != PixelType::U8 || t.image.data.size() != t.image.byteSize() || t.image.channels < 1 || t.image.channels > 4)
+    return fail(fmt::format("texture '{}'", t.name), "is empty, not 8 bit, or shorter than its size says", "give it an Image as makeImage makes it");
+  return {};
+}
+
+std::vector<Image> levelsOf(const Texture& t, int channels) {
+  if (t.sampler.mips) return material::buildMips(t.kind, withChannels(t.image, channels));
+  std::vector<Image> one;
+  one.push_back(withChannels(t.image, channels));
+  return one;
+}
+
+// Writes the occlusion's chain into the third channel of the normals'.
+void packOcclusion(std::vector<Image>& levels, const Texture& occlusion) {
+  Texture c = occlusion;
+  c.image = withChannels(c.image, 1);
+  c.sampler.mips = levels.size() > 1;
+  if (c.image.width != levels[0].width || c.image.height != levels[0].height) c.image = image::resampleArea(c.image, levels[0].width, levels[0].height);
+  const std::vector<Image> from = levelsOf(c, 1);
+  for (std::size_t k = 0; k < levels.size() && k < from.size(); ++k)
+    for (std::size_t i = 0; i < levels[k].pixelCount(); ++i) levels[k].u8()[i * 4 + 2] = from[k].u8()[i];
+}
+
+}  // namespace
+
+// `occlusion`: a map C to pack into map B, or nullptr.
+Result<gl::Texture> GpuScene::uploadTexture(const Texture& t, const Texture* occlusion) {
+  if (auto good = checkImage(t); !good) return fail(good.error());
+  if (occlusion)
+    if (auto good = checkImage(*occlusion); !good) return fail(good.error());
+  const KindFormat f = formatOf(t.kind, t.image.channels);
+  std::vector<Image> levels = levelsOf(t, f.channels);
+  if (occlusion) packOcclusion(levels, *occlusion);
   auto texture = gl::Texture::create(device_, {.format = f.format, .width = t.image.width, .height = t.image.height, .levels = int(levels.size())}, t.name);
   if (!texture) return texture;
   for (std::size_t k = 0; k < levels.size(); ++k) texture->upload(int(k), levels[k].data.data());

@@ -20,6 +20,7 @@ struct GpuMesh {
   static constexpr int kStride = 36, kExtraStride = 16;
 };
 
+/// A map B of a material that packs occlusion (plan::packsOcclusion) holds normal x, normal y, occlusion, roughness.
 /// What an instance is drawn with; textures that have not arrived are their 1x1 defaults.
 struct MaterialBinding {
   std::array<GLuint, 5> texture{};  ///< by texture unit: A, B, C, metal-rough, emissive
@@ -71,13 +72,16 @@ class GpuScene {
   void sweep(const Scene& scene);
   Result<void> updateMaterials(const Scene& scene, Report& report);
   const TextureRow* texture(const Scene& scene, Id<Texture> id, Report& report);
-  Result<gl::Texture> uploadTexture(const Texture& texture, Report& report);
+  Result<gl::Texture> uploadTexture(const Texture& texture, const Texture* occlusion);
+  const TextureRow* packedTexture(const Scene& scene, Id<Texture> normal, Id<Texture> occlusion, Report& report);
   GLuint sampler(const Sampler& s);
   Result<void> makeDefaults();
 
   gl::Device& device_;
   std::vector<MeshRow> meshes_;
   std::vector<TextureRow> textures_;
+  /// Maps B with a map C's occlusion in the third channel, by the two rows' indices.
+  std::map<std::pair<std::uint32_t, std::uint32_t>, TextureRow> packed_;
   std::vector<MaterialRow> materials_;
   std::vector<std::pair<Sampler, gl::Sampler>> samplers_;
   std::array<gl::Texture, 5> defaults_;

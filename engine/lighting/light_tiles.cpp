@@ -15,20 +15,44 @@ int bucketOf(std::uint32_t count) {
   return plan::kLoop;
 }
 
+// The stored depth halfway between two distances.
+float middleDepth(float near, float far, glm::dvec2 params, bool orthographic) {
+  if (orthographic) return (near + far) * 0.5f;
+  const double a = params.x / (double(near) + params.y), b = params.x / (double(far) + params.y);
+  return float(params.x / ((a + b) * 0.5) - params.y);
+}
+
+void splitTile(TileDepth& t, const float* depth, int stride, int w, int h, glm::dvec2 params, bool orthographic) {
+  const float middle = middleDepth(t.near, t.far, params, orthographic);
+  float nearEnd[TILE_SIZE], farBegin[TILE_SIZE];
+  std::fill(std::begin(nearEnd), std::end(nearEnd), t.near);
+  std::fill(std::begin(farBegin), std::end(farBegin), t.far);
+  for (int y = 0; y < h; ++y)
+    for (int x = 0; x < w; ++x) {
+      const float z = depth[std::size_t(y) * std::size_t(stride) + std::size_t(x)];
+      const float inNear = z >= middle ? z : t.near, inFar = z < middle ? z : t.far;
+      nearEnd[x] = inNear < nearEnd[x] ? inNear : nearEnd[x];
+      farBegin[x] = inFar > farBegin[x] ? inFar : farBegin[x];
+    }
+  t.nearEnd = *std::min_element(std::begin(nearEnd), std::end(nearEnd));
+  t.farBegin = *std::max_element(std::begin(farBegin), std::end(farBegin));
+}
+
 }  // namespace
 
-void reduceDepth(const float* depth, int stride, int width, int height, std::vector<TileDepth>& out) {
+void reduceDepth(const float* depth, int stride, int width, int height, glm::dvec2 depthParams, bool orthographic, std::vector<TileDepth>& out) {
   const int columns = (width + TILE_SIZE - 1) / TILE_SIZE, rows = (height + TILE_SIZE - 1) / TILE_SIZE;
   out.assign(std::size_t(columns * rows), {});
   for (int ty = 0; ty < rows; ++ty) {
     const int h = std::min(TILE_SIZE, height - ty * TILE_SIZE);
     for (int tx = 0; tx < columns; ++tx) {
       const int w = std::min(TILE_SIZE, width - tx * TILE_SIZE);
+      const float* corner = depth + std::size_t(ty * TILE_SIZE) * std::size_t(stride) + std::size_t(tx * TILE_SIZE);
       // A maximum and a minimum for each column of the tile, so that the inner loop is one vector wide.
       float high[TILE_SIZE] = {}, low[TILE_SIZE];
       std::fill(std::begin(low), std::end(low), 2.0f);
       for (int y = 0; y < h; ++y) {
-        const float* row = depth + std::size_t(ty * TILE_SIZE + y) * std::size_t(stride) + std::size_t(tx * TILE_SIZE);
+        const float* row = corner + std::size_t(y) * std::size_t(stride);
         for (int x = 0; x < w; ++x) {
           const float z = row[x];
           high[x] = z > high[x] ? z : high[x];
@@ -38,41 +62,36 @@ void reduceDepth(const float* depth, int stride, int width, int height, std::vec
       }
       TileDepth& t = out[std::size_t(ty * columns + tx)];
       t.near = *std::max_element(std::begin(high), std::end(high));
-      t.far = t.near > 0 ? *std::min_element(std::begin(low), std::end(low)) : -1;
+      if (!(t.near > 0)) continue;
+      t.far = *std::min_element(std::begin(low), std::end(low));
+      splitTile(t, corner, stride, w, h, depthParams, orthographic);
     }
   }
 }
 
 void TileCuller::boundTiles(const scene::ViewFrame& view, std::span<const TileDepth> depths) {
-  const std::size_t count = depths.size();
-  for (std::vector<float>* v : {&minX_, &maxX_, &minY_, &maxY_, &minZ_, &maxZ_}) v->resize(count);
+  boxes_.resize(depths.size());
+  slices_.assign(depths.size(), 0);
   const double w = view.viewport.z, h = view.viewport.w;
+  const auto distance = [&view](float z) { return view.orthographic ? view.depthParams.x - double(z) * view.depthParams.y : view.depthParams.x / (double(z) + view.depthParams.y); };
   for (int ty = 0; ty < rows_; ++ty) {
     const double y0 = (2.0 * ty * TILE_SIZE / h - 1) * view.tanY, y1 = (2.0 * (ty + 1) * TILE_SIZE / h - 1) * view.tanY;
     for (int tx = 0; tx < columns_; ++tx) {
       const std::size_t i = std::size_t(ty * columns_ + tx);
       const TileDepth& t = depths[i];
-      if (t.far < 0) {
-        minZ_[i] = 1;
-        maxZ_[i] = -1;  // empty: no light meets it
-        continue;
-      }
+      if (t.far < 0) continue;
       const double x0 = (2.0 * tx * TILE_SIZE / w - 1) * view.tanX, x1 = (2.0 * (tx + 1) * TILE_SIZE / w - 1) * view.tanX;
-      double z0, z1, s0 = 1, s1 = 1;
-      if (view.orthographic) {
-        z0 = view.depthParams.x - double(t.near) * view.depthParams.y;
-        z1 = view.depthParams.x - double(t.far) * view.depthParams.y;
-      } else {
-        s0 = z0 = view.depthParams.x / (double(t.near) + view.depthParams.y);
-        s1 = z1 = view.depthParams.x / (double(t.far) + view.depthParams.y);
-      }
-      const double slack = 1e-5 * (std::abs(z1) + 1e-3);  // floats of the shader's own position
-      minX_[i] = float(std::min(x0 * s0, x0 * s1) - slack);
-      maxX_[i] = float(std::max(x1 * s0, x1 * s1) + slack);
-      minY_[i] = float(std::min(y0 * s0, y0 * s1) - slack);
-      maxY_[i] = float(std::max(y1 * s0, y1 * s1) + slack);
-      minZ_[i] = float(z0 - slack);
-      maxZ_[i] = float(z1 + slack);
+      const auto box = [&](double z0, double z1) {
+        const double s0 = view.orthographic ? 1 : z0, s1 = view.orthographic ? 1 : z1;
+        const double slack = 1e-5 * (std::abs(z1) + 1e-3);  // floats of the shader's own position
+        return Box{float(std::min(x0 * s0, x0 * s1) - slack), float(std::max(x1 * s0, x1 * s1) + slack), float(std::min(y0 * s0, y0 * s1) - slack),
+                   float(std::max(y1 * s0, y1 * s1) + slack), float(z0 - slack),                         float(z1 + slack)};
+      };
+      const double near = distance(t.near), nearEnd = distance(t.nearEnd), farBegin = distance(t.farBegin), far = distance(t.far);
+      // One slice where the halves touch: nothing is gained by two.
+      slices_[i] = farBegin - nearEnd > 0.05 * (far - near) ? 2 : 1;
+      boxes_[i][0] = slices_[i] == 2 ? box(near, nearEnd) : box(near, far);
+      boxes_[i][1] = box(farBegin, far);
     }
   }
 }
@@ -92,29 +111,30 @@ void TileCuller::cullLight(const scene::ViewFrame& view, const scene::LocalLight
   const bool spot = light.cosOuter > -1;
   const glm::vec3 axis(float(glm::dot(view.axes[0], glm::dvec3(light.axis))), float(glm::dot(view.axes[1], glm::dvec3(light.axis))), float(-glm::dot(view.axes[2], glm::dvec3(light.axis))));
   const float cosOuter = light.cosOuter, sinOuter = std::sqrt(std::max(1 - cosOuter * cosOuter, 0.0f));
-  const float fx = float(x), fy = float(y), fz = float(z), r2 = float(r * r * 1.0001);
+  const glm::vec3 c{float(x), float(y), float(z)};
+  const float r2 = float(r * r * 1.0001);
+  const auto meets = [&](const Box& b) {
+    const float dx = std::max({b.minX - c.x, c.x - b.maxX, 0.0f}), dy = std::max({b.minY - c.y, c.y - b.maxY, 0.0f}), dz = std::max({b.minZ - c.z, c.z - b.maxZ, 0.0f});
+    if (dx * dx + dy * dy + dz * dz > r2) return false;
+    if (!spot) return true;
+    // Cone against the slice's bounding sphere (Wronski 2017, "Cull that cone").
+    const glm::vec3 low3(b.minX, b.minY, b.minZ), high3(b.maxX, b.maxY, b.maxZ);
+    const float radius = glm::length(high3 - low3) * 0.5f;
+    const glm::vec3 v = (low3 + high3) * 0.5f - c;
+    const float along = glm::dot(v, axis), across = std::sqrt(std::max(glm::dot(v, v) - along * along, 0.0f));
+    return cosOuter * across - along * sinOuter <= radius && along >= -radius;
+  };
   for (int ty = ty0; ty <= ty1; ++ty)
     for (int tx = tx0; tx <= tx1; ++tx) {
       const std::size_t i = std::size_t(ty * columns_ + tx);
-      if (minZ_[i] > maxZ_[i]) continue;
-      const float dx = std::max({minX_[i] - fx, fx - maxX_[i], 0.0f}), dy = std::max({minY_[i] - fy, fy - maxY_[i], 0.0f}), dz = std::max({minZ_[i] - fz, fz - maxZ_[i], 0.0f});
-      if (dx * dx + dy * dy + dz * dz > r2) continue;
-      if (spot) {
-        // Cone against the slice's bounding sphere (Wronski 2017, "Cull that cone").
-        const glm::vec3 center((minX_[i] + maxX_[i]) * 0.5f, (minY_[i] + maxY_[i]) * 0.5f, (minZ_[i] + maxZ_[i]) * 0.5f);
-        const glm::vec3 half(maxX_[i] - center.x, maxY_[i] - center.y, maxZ_[i] - center.z);
-        const float radius = glm::length(half);
-        const glm::vec3 v = center - glm::vec3(fx, fy, fz);
-        const float along = glm::dot(v, axis), across = std::sqrt(std::max(glm::dot(v, v) - along * along, 0.0f));
-        if (cosOuter * across - along * sinOuter > radius || along < -radius) continue;
-      }
-      pairs_.push_back({std::uint32_t(i), index});
+      if (slices_[i] == 0) continue;
+      if (meets(boxes_[i][0]) || (slices_[i] == 2 && meets(boxes_[i][1]))) pairs_.push_back({std::uint32_t(i), index});
     }
 }
 
 // Two counting sorts: pairs by tile, then tiles by program.
 void TileCuller::buildLists(std::span<const scene::LocalLight> lights) {
-  const std::size_t tiles = minZ_.size();
+  const std::size_t tiles = slices_.size();
   counts_.assign(tiles, 0);
   spots_.assign(tiles, 0);
   for (const Pair& p : pairs_) {
@@ -138,7 +158,7 @@ void TileCuller::buildLists(std::span<const scene::LocalLight> lights) {
   const auto addGroup = [&](int bucket) {
     TileGroup g{bucket, int(lists_.tiles.size()), 0};
     for (std::size_t i = 0; i < tiles; ++i) {
-      if (minZ_[i] > maxZ_[i]) continue;
+      if (slices_[i] == 0) continue;
       const int own = spots_[i] ? plan::kLoop : bucketOf(counts_[i]);
       if (own != bucket) continue;
       const std::size_t first = lists_.entries.size();

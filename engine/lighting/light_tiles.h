@@ -1,5 +1,6 @@
 // Which lights reach which tiles: lists for tiles of 16 x 16 pixels, bounded by the depth of what is in them. No GL; everything relative to the eye.
 #pragma once
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
@@ -9,12 +10,15 @@
 
 namespace burnish::lighting {
 
-/// Depth of the nearest and farthest surface of a tile, as stored (reversed); far < 0: nothing is drawn there.
+/// Depth of the nearest and farthest surface of a tile, as stored (reversed); far < 0: nothing is drawn there. A tile that shows a near and a far thing is mostly
+/// empty between them, so its range is split in the middle of its distances ("Half-Z", Stewart 2015, "Compute-based tiled culling"): nearEnd is the
+/// last depth of the near half, farBegin the first of the far half.
 struct TileDepth {
-  float near = 0, far = -1;
+  float near = 0, nearEnd = 0, farBegin = 0, far = -1;
 };
 /// From a depth buffer: rows bottom to top, `stride` floats a row, the viewport's lower left texel first. Texels of value 0 hold nothing.
-void reduceDepth(const float* depth, int stride, int width, int height, std::vector<TileDepth>& out);
+/// `depthParams` as ViewFrame's.
+void reduceDepth(const float* depth, int stride, int width, int height, glm::dvec2 depthParams, bool orthographic, std::vector<TileDepth>& out);
 
 /// One tile as the vertex shader reads it: x, y, first entry in the lists, number of entries (padding included).
 using TileVertex = glm::ivec4;
@@ -46,8 +50,12 @@ class TileCuller {
 
   int columns_ = 0, rows_ = 0;
   double near_ = 0;
-  // Bounds of each tile's slice in eye space (right, up, forward), one array a side.
-  std::vector<float> minX_, maxX_, minY_, maxY_, minZ_, maxZ_;
+  // Bounds of each tile's two slices in eye space (right, up, forward).
+  struct Box {
+    float minX, maxX, minY, maxY, minZ, maxZ;
+  };
+  std::vector<std::array<Box, 2>> boxes_;
+  std::vector<std::uint8_t> slices_;  // 0: nothing is drawn, 1, 2
   std::vector<Pair> pairs_;
   std::vector<std::uint32_t> counts_, offsets_;
   std::vector<std::uint8_t> spots_;

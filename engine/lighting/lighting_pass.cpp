@@ -33,7 +33,7 @@ Result<void> LightingPass::readTileDepths(FrameContext& c) {
   if (!c.reduceDepth) {
     depth_.resize(std::size_t(v.z) * std::size_t(v.w));
     c.device.gl.GetTextureSubImage(c.targets.texture("depth")->id(), 0, v.x, v.y, 0, v.z, v.w, 1, GL_DEPTH_COMPONENT, GL_FLOAT, GLsizei(depth_.size() * sizeof(float)), depth_.data());
-    reduceDepth(depth_.data(), v.z, v.z, v.w, tileDepths_);
+    reduceDepth(depth_.data(), v.z, v.z, v.w, c.view.depthParams, c.view.orthographic, tileDepths_);
     return {};
   }
   auto framebuffer = c.targets.framebuffer({"tile_depth"});
@@ -45,10 +45,10 @@ Result<void> LightingPass::readTileDepths(FrameContext& c) {
   gl.Scissor(0, 0, columns, rows);
   gl.Disable(GL_DEPTH_TEST);
   c.targets.texture("depth")->bind(UNIT_DEPTH);
-  if (auto drawn = c.drawScreen("tile_depth"); !drawn) return drawn;
+  if (auto drawn = c.drawScreen(c.view.orthographic ? "tile_depth+ortho" : "tile_depth"); !drawn) return drawn;
   tileDepths_.resize(std::size_t(columns * rows));
-  static_assert(sizeof(TileDepth) == 8);
-  gl.GetTextureSubImage(c.targets.texture("tile_depth")->id(), 0, 0, 0, 0, columns, rows, 1, GL_RG, GL_FLOAT, GLsizei(tileDepths_.size() * sizeof(TileDepth)), tileDepths_.data());
+  static_assert(sizeof(TileDepth) == 16);
+  gl.GetTextureSubImage(c.targets.texture("tile_depth")->id(), 0, 0, 0, 0, columns, rows, 1, GL_RGBA, GL_FLOAT, GLsizei(tileDepths_.size() * sizeof(TileDepth)), tileDepths_.data());
   return {};
 }
 

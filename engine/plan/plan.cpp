@@ -34,14 +34,14 @@ void needsOfInstances(const Scene& scene, const Quality& quality, Needs& needs) 
     const Material* found = scene.materials.get(instance.material);
     const Material& material = found ? *found : kDefault;
     plan::GeometryVariant variant = plan::variantOf(material, *mesh);
-    if (quality.occlusion == Occlusion::None) variant.occlusionMap = false;
+    if (quality.occlusion == Occlusion::None) variant.occlusionMap = variant.packed = false;
     call(needs.geometry, "instance", instance.name, "");
     if (variant.occlusionMap) call(needs.occlusion, "material", material.name, " has an occlusion map");
     if (variant.alphaTest) call(needs.alphaTest, "material", material.name, " is alpha tested");
     needs.variants.insert(variant);
     if (plan::emits(material)) {
       call(needs.emissive, "material", material.name, material.unlit ? " is unlit" : " emits");
-      variant.occlusionMap = false;
+      variant.occlusionMap = variant.packed = false;
       needs.emissiveVariants.insert(variant);
     }
   });
@@ -158,7 +158,7 @@ void Builder::addTargets() {
   const int w = options_.size.x, h = options_.size.y;
   if (geometry_) {
     target("depth", "DEPTH_COMPONENT32F", 4, w, h);
-    target("gbuffer_a", "SRGB8_ALPHA8", 4, w, h);
+    target("gbuffer_a", "RGBA8", 4, w, h);
     target("gbuffer_b", "RGBA8", 4, w, h);
     plan_.gbufferBytesPerPixel = 8;
     if (occlusion_) {
@@ -173,7 +173,7 @@ void Builder::addTargets() {
   }
   if (automatic_) target("exposure", "RG32F", 8, 1, 1);
   const bool tiles = geometry_ && ((final_ && lit_) || lightsView_);
-  if (tiles && reduceDepth()) target("tile_depth", "RG32F", 8, (w + 15) / 16, (h + 15) / 16);
+  if (tiles && reduceDepth()) target("tile_depth", "RGBA32F", 16, (w + 15) / 16, (h + 15) / 16);
 }
 
 void Builder::addGeometry() {
@@ -192,7 +192,7 @@ void Builder::addLighting() {
   PassPlan bounds{"tiles", {"depth", "lights"}, {"light lists"}, {}};
   if (reduceDepth()) {
     bounds.writes.push_back("tile_depth");
-    bounds.programs.push_back(screen("tile_depth", "lighting/tile_depth.frag", {}));
+    for (bool o : projections()) bounds.programs.push_back(screen(o ? "tile_depth+ortho" : "tile_depth", "lighting/tile_depth.frag", {fmt::format("ORTHOGRAPHIC {}", int(o))}));
   }
   plan_.passes.push_back(std::move(bounds));
   if (lightsView_) return;

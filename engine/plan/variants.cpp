@@ -16,8 +16,11 @@ GeometryVariant variantOf(const Material& m, const Mesh& mesh) {
   v.general = mapped || bool(m.metalRoughMap) || (m.useVertexColor && !mesh.colors.empty());
   v.alphaTest = m.alphaTest;
   v.occlusionMap = m.mapC && m.occlusionStrength > 0;
+  v.packed = v.occlusionMap && packsOcclusion(m);
   return v;
 }
+
+bool packsOcclusion(const Material& m) { return m.mapB && m.mapC && m.occlusionStrength > 0 && m.uvB == m.uvC && !m.alphaTest; }
 
 bool emits(const Material& m) { return m.unlit || m.emission.r > 0 || m.emission.g > 0 || m.emission.b > 0; }
 
@@ -30,8 +33,8 @@ ProgramPlan geometryProgram(GeometryPass pass, GeometryVariant variant, bool occ
   if (variant.general) p.name += "+general";
   if (variant.alphaTest) p.name += "+alpha";
   if (pass == GeometryPass::GBuffer) {
-    p.defines.push_back(define("OCCLUSION", !occlusionTarget ? 0 : variant.occlusionMap ? 1 : 2));
-    if (occlusionTarget) p.name += variant.occlusionMap ? "+ao" : "+unoccluded";
+    p.defines.push_back(define("OCCLUSION", !occlusionTarget ? 0 : !variant.occlusionMap ? 2 : variant.packed ? 3 : 1));
+    if (occlusionTarget) p.name += !variant.occlusionMap ? "+unoccluded" : variant.packed ? "+ao" : "+ao_map";
   }
   return p;
 }

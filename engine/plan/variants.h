@@ -8,9 +8,12 @@ struct GeometryVariant {
   bool general = false;    ///< second uv set, uv transforms, vertex colour or metal-rough kept apart
   bool alphaTest = false;
   bool occlusionMap = false;
+  bool packed = false;     ///< with occlusionMap: it rides in map B's third channel (gpu_scene), so that two lookups do
   friend auto operator<=>(const GeometryVariant&, const GeometryVariant&) = default;
 };
 GeometryVariant variantOf(const Material& material, const Mesh& mesh);
+/// Occlusion that can ride in map B: the same uv mapping as B's, and nothing else is read from map C.
+bool packsOcclusion(const Material& material);
 /// Emission of any kind, unlit included.
 bool emits(const Material& material);
 

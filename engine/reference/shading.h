@@ -1,11 +1,23 @@
 // The shading text (shaders/shading) as C++: namespaces burnish::shading::f32 and f64 hold the same functions in float and in double.
 #pragma once
+#include <cmath>
 #include <glm/glm.hpp>
 
 #include "shading/bridge.h"
 
 // NOLINTBEGIN
 #define BURNISH_SHADING_TERMS "reference/shading_terms.inl"
+namespace burnish::shading {
+// For u > 0: 2^-e with u 2^-e in [sqrt(1/2), sqrt(2)), and e (bridge.h has GLSL's).
+template <class T>
+T scaleToOne(T u, T& e) {
+  int k = 0;
+  const T m = std::frexp(u, &k);  // in [1/2, 1)
+  if (m < T(0.70710678118654752)) --k;
+  e = T(k);
+  return std::ldexp(T(1), -k);
+}
+}  // namespace burnish::shading
 namespace burnish::shading::f32 {
 using real = float;
 using glm::vec2;

@@ -15,6 +15,7 @@ using glm::sqrt;
 #include "shading/constants.h"
 #include "shading/roughness.h"
 #include "shading/normals.h"
+#include "shading/albedo.h"
 #include "shading/substance.h"
 #include "shading/fresnel.h"
 #include "shading/lobe.h"

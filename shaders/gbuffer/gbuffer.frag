@@ -1,9 +1,11 @@
-// Fills the G-buffer: RT0 albedo (sRGB) + substance code, RT1 octahedral normal 2x12 + log-alpha code, RT2 baked ambient occlusion.
-// Definitions: GENERAL, ALPHA_TEST, OCCLUSION (0 no third target, 1 from map C, 2 none on this material).
+// Fills the G-buffer: RT0 albedo (square root) + substance code, RT1 octahedral normal 2x12 + log-alpha code, RT2 baked ambient occlusion.
+// Definitions: GENERAL, ALPHA_TEST, OCCLUSION (0 no third target, 1 from map C, 2 none on this material,
+// 3 from the third channel of map B, where gpu_scene packs it: the normal's z follows from x and y).
 #include "shading/bridge.h"
 #include "shading/constants.h"
 #include "shading/roughness.h"
 #include "shading/normals.h"
+#include "shading/albedo.h"
 #include "interface/layout.h"
 #include "gbuffer/material.glsl"
 
@@ -22,18 +24,14 @@ layout(location = 1) out vec4 outNormalRoughness;
 layout(location = 2) out float outOcclusion;
 #endif
 
-// The normal map's direction in camera-relative world space. Zero or non-finite normals and tangents fall back to what is left of the frame.
+// The normal map's direction in camera-relative world space, from the interpolated frame. Without a tangent (zero) only the normal is left; where even that
+// vanishes the octahedral code stands for +z. Back faces see the whole frame reversed.
 vec3 shadingNormal(vec3 mapped) {
-  float facing = gl_FrontFacing ? 1.0 : -1.0;
-  vec3 n = worldNormal * (facing * inversesqrt(max(dot(worldNormal, worldNormal), 1e-30)));
-  vec3 t = worldTangent.xyz - n * dot(n, worldTangent.xyz);
-  float t2 = dot(t, t);
-  if (!(t2 > 1e-24)) return n;
-  t *= inversesqrt(t2);
-  vec3 b = cross(n, t) * (worldTangent.w * facing);
-  vec3 m = t * mapped.x + b * mapped.y + n * mapped.z;
+  vec3 b = cross(worldNormal, worldTangent.xyz) * worldTangent.w;
+  vec3 m = worldTangent.xyz * mapped.x + b * mapped.y + worldNormal * mapped.z;
   float m2 = dot(m, m);
-  return m2 > 1e-12 ? m * inversesqrt(m2) : n;
+  m = m2 > 1e-12 ? m : worldNormal;
+  return gl_FrontFacing ? m : -m;
 }
 
 void main() {
@@ -63,11 +61,16 @@ void main() {
 #endif
   // 128 is zero: 8-bit normal maps hold flat as (128, 128, 255).
   vec3 mapped = b.rgb * (255.0 / 127.0) - vec3(128.0 / 127.0);
+#if OCCLUSION == 3
+  mapped.z = sqrt(max(1.0 - mapped.x * mapped.x - mapped.y * mapped.y, 0.0));
+#endif
   float r = clamp(roughness, BURNISH_ROUGHNESS_MIN, 1.0);
-  outAlbedoSubstance = vec4(clamp(albedo, vec3(0.0), vec3(1.0)), code);
+  outAlbedoSubstance = vec4(encodeAlbedo(albedo), code);
   outNormalRoughness = vec4(packNormal(shadingNormal(mapped)), encodeAlpha(alphaFromRoughness(r)));
 #if OCCLUSION == 1
   outOcclusion = 1.0 + material.params.w * (c.r - 1.0);
+#elif OCCLUSION == 3
+  outOcclusion = 1.0 + material.params.w * (b.b - 1.0);
 #elif OCCLUSION == 2
   outOcclusion = 1.0;
 #endif

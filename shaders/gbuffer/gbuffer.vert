@@ -22,12 +22,16 @@ layout(location = 4) out vec4 vertexColor;
 
 invariant gl_Position;
 
+// Zero stays zero.
+vec3 unit(vec3 v) { return v * inversesqrt(max(dot(v, v), 1e-30)); }
+
 void main() {
   vec4 p = vec4(position, 1.0);
   vec3 relative = vec3(dot(draw.model[0], p), dot(draw.model[1], p), dot(draw.model[2], p));
   gl_Position = frame.viewProjection * vec4(relative, 1.0);
-  worldNormal = vec3(dot(draw.normal[0].xyz, normal.xyz), dot(draw.normal[1].xyz, normal.xyz), dot(draw.normal[2].xyz, normal.xyz));
-  worldTangent = vec4(dot(draw.model[0].xyz, tangent.xyz), dot(draw.model[1].xyz, tangent.xyz), dot(draw.model[2].xyz, tangent.xyz), tangent.w);
+  // Unit length at the vertices, interpolated as they are: the frame that normal maps are baked for (Mikkelsen 2008, section 4).
+  worldNormal = unit(vec3(dot(draw.normal[0].xyz, normal.xyz), dot(draw.normal[1].xyz, normal.xyz), dot(draw.normal[2].xyz, normal.xyz)));
+  worldTangent = vec4(unit(vec3(dot(draw.model[0].xyz, tangent.xyz), dot(draw.model[1].xyz, tangent.xyz), dot(draw.model[2].xyz, tangent.xyz))), tangent.w);
   textureUv0 = uv0;
 #if GENERAL
   textureUv1 = uv1;

@@ -20,4 +20,4 @@ vec3 positionAt(vec2 pixel, float z, out vec3 toEye) {
 #endif
 }
 
-Surface surfaceAt(vec4 a, vec4 b, vec3 toEye) { return makeSurface(unpackNormal(b.rgb), toEye, a.rgb, a.a, decodeAlpha(b.a)); }
+Surface surfaceAt(vec4 a, vec4 b, vec3 toEye) { return makeSurface(unpackNormal(b.rgb), toEye, decodeAlbedo(a.rgb), a.a, decodeAlpha(b.a)); }

@@ -4,6 +4,7 @@
 #include "shading/constants.h"
 #include "shading/roughness.h"
 #include "shading/normals.h"
+#include "shading/albedo.h"
 #include "shading/substance.h"
 #include "shading/fresnel.h"
 #include "shading/lobe.h"
@@ -34,8 +35,9 @@ layout(location = 0) out vec4 outRadiance;
 vec3 punctual(Surface m, vec3 p, vec4 place, vec4 color) {
   vec3 l = place.xyz - p;
   float d2 = max(dot(l, l), BURNISH_GUARD_DISTANCE2);
-  float e = distanceAttenuation(d2, place.w, color.w);
-  return shadeDirection(m, l * inversesqrt(d2), RUNG_GEOMETRY, RUNG_LOBE) * color.rgb * e;
+  float inverse = inversesqrt(d2);
+  float e = distanceAttenuation(d2, inverse * inverse, place.w, color.w);
+  return shadeDirection(m, l * inverse, RUNG_GEOMETRY, RUNG_LOBE) * (color.rgb * e);
 }
 
 #if ENVIRONMENT

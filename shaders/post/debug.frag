@@ -3,6 +3,7 @@
 #include "shading/constants.h"
 #include "shading/roughness.h"
 #include "shading/normals.h"
+#include "shading/albedo.h"
 #include "shading/substance.h"
 #include "shading/surface.h"
 #include "shading/tonemap.h"
@@ -23,9 +24,9 @@ void main() {
   vec3 c = vec3(0.0);
   if (GEOMETRY == 1 && z > 0.0) {
 #if VIEW == 1
-    c = a.rgb;
+    c = decodeAlbedo(a.rgb);
 #elif VIEW == 2
-    c = substanceF0(a.a, a.rgb);
+    c = substanceF0(a.a, decodeAlbedo(a.rgb));
 #elif VIEW == 3
     vec3 n = unpackNormal(b.rgb);
     c = vec3(linearFromSrgb(n.x * 0.5 + 0.5), linearFromSrgb(n.y * 0.5 + 0.5), linearFromSrgb(n.z * 0.5 + 0.5));

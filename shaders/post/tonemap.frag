@@ -38,6 +38,6 @@ void main() {
 #else
   c = tonemapNone(c);
 #endif
-  outColor = vec4(srgbFromLinear(c.r), srgbFromLinear(c.g), srgbFromLinear(c.b), 1.0);
+  outColor = vec4(srgbFromLinearFast(c.r), srgbFromLinearFast(c.g), srgbFromLinearFast(c.b), 1.0);
 #endif
 }

@@ -15,5 +15,11 @@
 #define R(x) (x)
 #define OUT(T) out T
 #define INOUT(T) inout T
+// For u > 0: 2^-e with u 2^-e in [sqrt(1/2), sqrt(2)), and e. The constants are the bits of 1 and of sqrt(1/2).
+float scaleToOne(float u, out float e) {
+  int k = (floatBitsToInt(u) - 0x3f3504f3) >> 23;
+  e = float(k);
+  return intBitsToFloat(0x3f800000 - (k << 23));
+}
 #endif
 #endif

@@ -2,10 +2,10 @@
 
 FN real signNotZero(real x) { return x >= R(0.0) ? R(1.0) : R(-1.0); }
 
-// Unit vector to the square [-1,1]². A zero vector gives (0, 0), which decodes to +z.
+// Vector of any length to the square [-1,1]². A zero vector gives (0, 0), which decodes to +z.
 FN vec2 octahedralEncode(vec3 n) {
   real s = abs(n.x) + abs(n.y) + abs(n.z);
-  real k = s > R(0.0) ? R(1.0) / s : R(0.0);
+  real k = R(1.0) / max(s, BURNISH_GUARD_LOG);
   real x = n.x * k;
   real y = n.y * k;
   if (n.z < R(0.0)) return vec2((R(1.0) - abs(y)) * signNotZero(x), (R(1.0) - abs(x)) * signNotZero(y));
@@ -30,11 +30,10 @@ FN vec3 packNormal(vec3 n) {
   return vec3(u - uh * R(256.0), v - vh * R(256.0), uh * R(16.0) + vh) / R(255.0);
 }
 
+// The low bytes need no rounding (k/255 · 255 is k to 1e-5); the nibbles do.
 FN vec3 unpackNormal(vec3 rgb) {
-  real lowU = floor(rgb.x * R(255.0) + R(0.5));
-  real lowV = floor(rgb.y * R(255.0) + R(0.5));
-  real high = floor(rgb.z * R(255.0) + R(0.5));
-  real uh = floor(high / R(16.0));
+  real high = rgb.z * R(255.0);
+  real uh = floor((high + R(0.5)) * R(0.0625));
   real vh = high - uh * R(16.0);
-  return octahedralDecode(vec2((lowU + uh * R(256.0)) / R(2047.0) - R(1.0), (lowV + vh * R(256.0)) / R(2047.0) - R(1.0)));
+  return octahedralDecode(vec2((rgb.x * R(255.0) + uh * R(256.0)) * (R(1.0) / R(2047.0)) - R(1.0), (rgb.y * R(255.0) + vh * R(256.0)) * (R(1.0) / R(2047.0)) - R(1.0)));
 }
