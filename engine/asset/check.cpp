@@ -46,6 +46,7 @@ Check::~Check() {
     report_.warn(at.path.empty() ? file_ : file_ + ": " + at.path,
                  at.count > 1 ? fmt::format("{} (and {} more like it)", what, at.count - 1) : what);
   }
+  if (unlisted_) report_.warn(file_, fmt::format("{} more warnings are not listed", unlisted_));
 }
 
 void Check::fail(std::string path, std::string what, std::string remedy) {
@@ -56,7 +57,10 @@ void Check::warn(const std::string& path, const std::string& what) {
   constexpr std::size_t kMaxGroups = 1000;
   auto found = groups_.find(what);
   if (found == groups_.end()) {
-    if (groups_.size() >= kMaxGroups) return;
+    if (groups_.size() >= kMaxGroups) {
+      ++unlisted_;
+      return;
+    }
     found = groups_.try_emplace(what, Group{path, 0}).first;
     order_.push_back(&*found);
   }

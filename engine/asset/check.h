@@ -155,6 +155,7 @@ class Check {
     std::size_t count = 0;
   };
   std::map<std::string, Group> groups_;
+  std::size_t unlisted_ = 0;
   std::vector<const std::map<std::string, Group>::value_type*> order_;
   std::array<std::size_t, std::size_t(Table::Count)> sizes_{};
 };

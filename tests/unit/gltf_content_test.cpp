@@ -1,12 +1,7 @@
-// What the reader makes of each thing that a glTF file can bring.
-#include <atomic>
-#include <chrono>
-#include <thread>
-
+// What the reader makes of each thing that a glTF file can bring; materials and pictures are gltf_material_test.cpp's.
 #include "gltf_fixture.h"
 
 using namespace gltf_test;
-using burnish::asset::AlphaMode;
 using burnish::asset::Light;
 using Indices = std::vector<std::uint32_t>;
 
@@ -179,127 +174,6 @@ TEST_CASE("colours are clamped, odd tangents mended, surplus attributes named", 
   CHECK(r.warned("tangents whose w"));
   CHECK(r.warned("TEXCOORD_2"));
   CHECK(r.report.warnings().size() == 3);
-}
-
-TEST_CASE("materials and their extensions", "[gltf]") {
-  box().put("a.png", kPng);
-  const Json transform = {
-      {"KHR_texture_transform", {{"offset", {0.5, 1}}, {"scale", {2, 3}}, {"rotation", 0.25}, {"texCoord", 1}}}};
-  Json file = {
-      {"extensionsUsed",
-       {"KHR_texture_transform", "KHR_materials_ior", "KHR_materials_specular", "KHR_materials_emissive_strength",
-        "KHR_materials_unlit", "KHR_materials_pbrSpecularGlossiness", "KHR_materials_sheen", "EXT_something"}},
-      {"images", {{{"uri", "a.png"}}, {{"uri", "a.png"}}}},
-      {"samplers", {{{"magFilter", 9728}, {"minFilter", 9985}, {"wrapS", 33071}, {"wrapT", 33648}}}},
-      {"textures", {{{"source", 0}, {"sampler", 0}}}}};
-  file["materials"] = {
-      {{"name", "first"},
-       {"pbrMetallicRoughness",
-        {{"baseColorFactor", {0.1, 0.2, 0.3, 0.4}},
-         {"metallicFactor", 0.5},
-         {"roughnessFactor", 0.25},
-         {"baseColorTexture", {{"index", 0}, {"extensions", transform}}}}},
-       {"normalTexture", {{"index", 0}, {"scale", 2}}},
-       {"occlusionTexture", {{"index", 0}, {"strength", 0.5}}},
-       {"emissiveFactor", {1, 0.5, 0}},
-       {"alphaMode", "MASK"},
-       {"alphaCutoff", 0.75},
-       {"doubleSided", true},
-       {"extensions",
-        {{"KHR_materials_ior", {{"ior", 1.25}}},
-         {"KHR_materials_emissive_strength", {{"emissiveStrength", 10}}},
-         {"KHR_materials_specular", {{"specularFactor", 0.5}, {"specularColorFactor", {1, 2, 3}}}}}}},
-      {{"extensions", {{"KHR_materials_unlit", Json::object()}}}},
-      {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}},
-       {"extensions",
-        {{"KHR_materials_pbrSpecularGlossiness",
-          {{"diffuseFactor", {0.5, 0.5, 0.5, 1}}, {"glossinessFactor", 0.3}, {"specularFactor", {0.1, 0.2, 0.3}}}}}}}};
-  const Reading r = readJson(file);
-  INFO(r.message());
-  REQUIRE(r.asset);
-  const auto& m = r.asset->materials[0];
-  CHECK(m.baseColor == glm::vec4(0.1f, 0.2f, 0.3f, 0.4f));
-  CHECK((m.metallic == 0.5f && m.roughness == 0.25f && m.doubleSided && !m.unlit));
-  CHECK((m.alphaMode == AlphaMode::Mask && m.alphaCutoff == 0.75f));
-  CHECK(m.emissive == glm::vec3(10, 5, 0));
-  CHECK((m.ior == 1.25f && m.specular == 0.5f && m.specularColor == glm::vec3(1, 2, 3)));
-  CHECK((m.normalTexture.strength == 2 && m.occlusionTexture.strength == 0.5f));
-  const auto& t = m.baseColorTexture;
-  CHECK((t.offset == glm::vec2(0.5, 1) && t.scale == glm::vec2(2, 3) && t.rotation == 0.25f && t.uvSet == 1));
-  CHECK(r.asset->materials[1].unlit);
-  const auto& sg = r.asset->materials[2];
-  CHECK((sg.specularGlossiness && sg.glossiness == 0.3f && sg.specularF0 == glm::vec3(0.1f, 0.2f, 0.3f) &&
-         !sg.baseColorTexture));
-  const auto& s = r.asset->samplers[0];
-  CHECK((!s.magnifyLinear && s.minifyLinear && !s.mipLinear && s.mips));
-  CHECK((s.wrapS == burnish::asset::Wrap::ClampToEdge && s.wrapT == burnish::asset::Wrap::MirroredRepeat));
-  CHECK(r.decoded == 1);  // used three times, decoded once; the other picture is not used
-  CHECK(r.warned("'KHR_materials_sheen'"));
-  CHECK(r.warned("'EXT_something'"));
-  CHECK(r.report.warnings().size() == 2);
-
-  file["materials"][0]["extensions"]["KHR_materials_ior"]["ior"] = 0.5;
-  CHECK(readJson(file).message().find("/materials/0/extensions/KHR_materials_ior/ior") != std::string::npos);
-  file["extensionsRequired"] = {"EXT_something"};
-  CHECK(readJson(file).message().find("/extensionsRequired/0: the file requires extension 'EXT_something'") !=
-        std::string::npos);
-}
-
-TEST_CASE("damaged pictures are warnings that name them", "[gltf]") {
-  box().put("good.png", kPng);
-  box().put("damaged.png", "not a picture at all");
-  Json file = {
-      {"images", {{{"uri", "good.png"}}, {{"uri", "damaged.png"}}, {{"uri", "data:image/png;base64,iVBORw0KGgo="}}}},
-      {"textures", {{{"source", 0}}, {{"source", 1}}, {{"source", 2}}, Json::object()}}};
-  for (int i = 0; i < 4; ++i) file["materials"].push_back({{"emissiveTexture", {{"index", i}}}});
-  const Reading r = readJson(file);
-  INFO(r.message());
-  REQUIRE(r.asset);
-  for (int i = 0; i < 4; ++i) CHECK(bool(r.asset->materials[std::size_t(i)].emissiveTexture) == (i == 0 || i == 2));
-  CHECK(r.warned("damaged.png"));
-  CHECK(r.report.warnings().size() == 2);
-  file["images"][2]["uri"] = "data:image/png;base64,iVBOR*0KGgo=";
-  CHECK(readJson(file).message().find("/images/2/uri") != std::string::npos);
-}
-
-TEST_CASE("pictures are decoded on two threads where the decoder allows it, and reported in order", "[gltf]") {
-  class Slow final : public burnish::ImageDecoder {
-   public:
-    Result<burnish::Image> decode(std::span<const std::byte> file, std::string_view name,
-                                  const burnish::DecodeLimits&) override {
-      most = std::max(most.load(), ++now);
-      std::this_thread::sleep_for(std::chrono::milliseconds(file.size() == 1 ? 20 : 5));
-      --now;
-      if (file.size() < 3) return burnish::fail(std::string(name), "too short");
-      return burnish::Image{int(file.size()), 1, 1, burnish::PixelType::U8, std::vector<std::byte>(file.size())};
-    }
-    [[nodiscard]] int concurrency() const override { return allowed; }
-    std::atomic<int> now = 0, most = 0;
-    int allowed = 1;
-  };
-  Json file = {{"asset", {{"version", "2.0"}}}};
-  for (int i = 0; i < 8; ++i) {
-    const std::string name = "p" + std::to_string(i) + ".png";
-    box().put(name, std::string(std::size_t(i + 1), 'x'));
-    file["images"].push_back({{"uri", i == 7 ? "./p4.png" : name}});
-    file["textures"].push_back({{"source", i}});
-    file["materials"].push_back({{"emissiveTexture", {{"index", i}}}});
-  }
-  const fs::path path = box().put("threads.gltf", file.dump());
-  for (const int allowed : {1, 2, 16}) {
-    Slow decoder;
-    decoder.allowed = allowed;
-    Report report;
-    const auto asset = burnish::asset::readGltf(path, {.decoder = &decoder}, report);
-    REQUIRE(asset);
-    CHECK(decoder.most == std::min(allowed, 2));
-    REQUIRE(report.warnings().size() == 2);
-    CHECK(report.warnings()[0].place == "threads.gltf: /images/0");
-    CHECK(report.warnings()[1].place == "threads.gltf: /images/1");
-    for (int i = 2; i < 7; ++i) CHECK(asset->pictures[std::size_t(i)].pixels.width == i + 1);
-    CHECK(asset->textures[7].picture == 4);  // the same file under another name
-    CHECK(asset->pictures[7].pixels.empty());
-  }
 }
 
 TEST_CASE("nodes: parents first, matrices and TRS, the default scene only", "[gltf]") {

@@ -1,5 +1,5 @@
 // Another reader as the judge: tinygltf parses the same valid files, and both must see the same numbers. It is the only
-// place where it is used; the engine itself has no need of it (engine/asset/gltf_reader.cpp says why).
+// place where it is used; the engine itself has no need of it (docs/decisions/gltf_reader.md says why).
 #define TINYGLTF_NO_STB_IMAGE
 #define TINYGLTF_NO_STB_IMAGE_WRITE
 #define TINYGLTF_NO_EXTERNAL_IMAGE
