@@ -167,7 +167,8 @@ Result<void> uploadDraws(FrameContext& c) {
 
 bool bindInstance(FrameContext& c, std::size_t i, bool general, const GpuMesh*& mesh) {
   const scene::VisibleInstance& v = c.visible[i];
-  mesh = c.gpuScene.mesh(c.scene, v.instance->mesh, c.report);
+  const Material* material = c.scene.materials.get(v.instance->material);
+  mesh = c.gpuScene.mesh(c.scene, v.instance->mesh, material && material->mapB, c.report);
   if (!mesh) return false;
   const GladGLContext& gl = c.device.gl;
   const gl::VertexArray& array = general ? c.buffers.general : c.buffers.plain;

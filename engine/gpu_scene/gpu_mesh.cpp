@@ -78,11 +78,12 @@ Result<std::unique_ptr<GpuMesh>> uploadMesh(gl::Device& device, const Mesh& mesh
 
 }  // namespace
 
-const GpuMesh* GpuScene::mesh(const Scene& scene, Id<Mesh> id, Report& report) {
+const GpuMesh* GpuScene::mesh(const Scene& scene, Id<Mesh> id, bool tangents, Report& report) {
   const Mesh* m = scene.meshes.get(id);
   if (!m) return nullptr;
   MeshRow& row = meshes_[id.index];
-  if (row.revision == scene.meshes.revision(id)) return row.mesh.get();
+  const bool lacking = tangents && row.mesh && !row.mesh->tangents && !m->uv0.empty();
+  if (row.revision == scene.meshes.revision(id) && !lacking) return row.mesh.get();
   if (!admit(m->positions.size() * (GpuMesh::kStride + (m->uv1.empty() && m->colors.empty() ? 0 : GpuMesh::kExtraStride)) + m->indices.size() * 4)) return nullptr;
   row = {scene.meshes.revision(id), id.generation, nullptr};
   Result<Mesh> valid = validated(*m, report);
@@ -91,12 +92,14 @@ const GpuMesh* GpuScene::mesh(const Scene& scene, Id<Mesh> id, Report& report) {
     return nullptr;
   }
   if (valid->indices.empty()) return nullptr;
+  if (tangents && valid->tangents.empty() && !valid->uv0.empty()) makeTangents(*valid);
   auto uploaded = uploadMesh(device_, *valid);
   if (!uploaded) {
     report.warn(uploaded.error().place, uploaded.error().what + ": it is not drawn");
     return nullptr;
   }
   row.mesh = std::move(*uploaded);
+  row.mesh->tangents = tangents || !m->tangents.empty();
   return row.mesh.get();
 }
 

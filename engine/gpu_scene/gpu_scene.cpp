@@ -54,7 +54,7 @@ MaterialData dataOf(const Material& m) {
   // A material without a map A takes the code from its factor: the default map's alpha counts for nothing.
   d.params = {m.mapA ? 1.0f : 0.0f, m.mapA ? 0.0f : unit(m.substance, 1.0f / 3), unit(m.roughness, 1), unit(m.occlusionStrength, 1)};
   d.emission = {finiteOr(m.emission.r, 0, 1e9f, 0), finiteOr(m.emission.g, 0, 1e9f, 0), finiteOr(m.emission.b, 0, 1e9f, 0), unit(m.alphaCutoff, 0.5f)};
-  d.more = {unit(m.metalness, 0), m.unlit ? 1.0f : 0.0f, m.useVertexColor ? 1.0f : 0.0f, m.metalRoughMap ? 1.0f : 0.0f};
+  d.more = {unit(m.metalness, 0), m.unlit ? 1.0f : 0.0f, m.useVertexColor ? 1.0f : 0.0f, m.metalRoughMap ? (m.mapB ? 1.0f : 2.0f) : 0.0f};
   const UvMapping* maps[] = {&m.uvA, &m.uvB, &m.uvC, &m.uvMetalRough, &m.uvEmissive};
   for (int i = 0; i < 5; ++i)
     for (int row = 0; row < 2; ++row) d.uv[2 * i + row] = uvRow(*maps[i], row);

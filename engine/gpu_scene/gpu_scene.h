@@ -17,6 +17,7 @@ struct GpuMesh {
   gl::Buffer vertices, extras, indices;
   int indexCount = 0;
   GLenum indexType = GL_UNSIGNED_SHORT;
+  bool tangents = false;
   static constexpr int kStride = 36, kExtraStride = 16;
 };
 
@@ -42,7 +43,8 @@ class GpuScene {
   /// Call once a frame before anything else. budget: bytes that may be uploaded in this frame, 0: no limit (one resource always goes through).
   Result<void> beginFrame(const Scene& scene, std::uint64_t budget, Report& report);
   /// nullptr while it waits for its turn or cannot be drawn.
-  const GpuMesh* mesh(const Scene& scene, Id<Mesh> id, Report& report);
+  /// tangents: the material has a normal map; they are made where the mesh brings none (MikkTSpace, which may split vertices).
+  const GpuMesh* mesh(const Scene& scene, Id<Mesh> id, bool tangents, Report& report);
   const MaterialBinding& material(const Scene& scene, Id<Material> id, Report& report);
   [[nodiscard]] const gl::Buffer& materials() const { return materialBuffer_; }
   /// Only called when the plan lights by it or shows it.

@@ -44,9 +44,13 @@ void main() {
   if (material.more.z > 0.5) albedo *= vertexColor.rgb;
   if (material.more.w > 0.5) {
     vec4 mr = texture(mapMetalRough, mapUv(3));
+    // Below 0.01 it is plain plastic, as encodeMetalness has it. Map B's alpha holds only the spread of its normals.
     float m = mr.b * material.more.x;
-    code = m > 0.0 ? 0.4 + 0.6 * m : 1.0 / 3.0;
-    roughness = mr.g * material.params.z;
+    code = m >= 0.01 ? 0.4 + 0.6 * m : 1.0 / 3.0;
+    float rough = mr.g * material.params.z;
+    float spread = material.more.w < 1.5 ? b.a : 0.0;
+    float alpha2 = rough * rough * rough * rough + spread * spread * spread * spread;
+    roughness = sqrt(sqrt(alpha2));
   }
 #endif
 #if OCCLUSION == 1 || ALPHA_TEST

@@ -60,7 +60,7 @@ struct MaterialData {
   vec4 albedo;      // rgb factor, a opacity
   vec4 params;      // x code scale, y code bias, z roughness factor, w occlusion strength
   vec4 emission;    // rgb pre-exposure not applied, cd/m²; w alpha cutoff
-  vec4 more;        // x metalness factor (metal-rough kept apart), y 1 when unlit, z 1 when vertex colour counts, w 1 when metal-rough is kept apart
+  vec4 more;        // x metalness factor (metal-rough kept apart), y 1 when unlit, z 1 when vertex colour counts, w 1 when metal-rough is kept apart, 2 when there is no map B beside it
   vec4 uv[10];      // two rows for each of A, B, C, metal-rough, emissive: u' = dot(row.xyz, (u, v, 1)); row.w of the first: uv set
 };
 #endif

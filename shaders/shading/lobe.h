@@ -8,13 +8,13 @@ FN real lobeExp2(real sum, real inverse, real p) {
 }
 
 // ln(1 - x) for x in [0, 1], relative error below 3e-7 in float also where x is tiny and 1 - x would round to 1.
-// With scale = 2^-e such that (1 - x) scale lies in [sqrt(1/2), sqrt(2)):  ln(1 - x) = 2 artanh(t) + e ln 2,  t = ((1 - x) scale - 1) / ((1 - x) scale + 1)
-// (Abramowitz and Stegun 4.1.27); |t| < 0.172, so four terms do. For e = 0 the numerator is -x itself: nothing cancels.
+// With scale = 2^-e such that m = (1 - x) scale lies in [sqrt(1/2), sqrt(2)):  ln(1 - x) = 2 artanh((m - 1)/(m + 1)) + e ln 2
+// (Abramowitz and Stegun 4.1.27); the argument is under 0.172, so four terms do. For e = 0 the numerator m - 1 is -x itself: nothing cancels.
 FN real logOneMinus(real x) {
+  real u = max(R(1.0) - x, BURNISH_GUARD_LOG);
   real e;
-  real scale = scaleToOne(max(R(1.0) - x, BURNISH_GUARD_LOG), e);
-  real xs = x * scale;
-  real t = (scale - R(1.0) - xs) / (scale + R(1.0) - xs);
+  real m = scaleToOne(u, e) * u;
+  real t = (e == R(0.0) ? -x : m - R(1.0)) / (m + R(1.0));
   real t2 = t * t;
   return R(2.0) * t * (R(1.0) + t2 * (R(1.0) / R(3.0) + t2 * (R(0.2) + t2 * (R(1.0) / R(7.0))))) + e * R(0.69314718055994531);
 }
