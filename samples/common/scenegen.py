@@ -12,7 +12,7 @@ Conventions
   * textures: colour is authored linear and stored as sRGB; heights are in metres,
     so normal maps have true slopes; ORM packs occlusion, roughness, metallic.
   * environments: latitude-longitude RGBE in cd/m2, row 0 is +Y, column angle
-    phi = 2 pi (x + 0.5) / width, direction (sin phi, ., cos phi).
+    phi = 2 pi (x + 0.5) / width, direction (-sin phi, ., cos phi): the centre looks along -Z, +X is to its right.
 """
 import argparse
 import dataclasses
@@ -126,7 +126,7 @@ def sphere_directions(w, h):
     """The direction of every pixel of a latitude-longitude map."""
     theta = (np.arange(h) + 0.5)[:, None] / h * math.pi
     phi = (np.arange(w) + 0.5)[None] / w * TAU
-    return stack(np.sin(theta) * np.sin(phi), np.cos(theta), np.sin(theta) * np.cos(phi))
+    return stack(-np.sin(theta) * np.sin(phi), np.cos(theta), np.sin(theta) * np.cos(phi))
 
 
 # ---------------------------------------------------------------- noise and maps
