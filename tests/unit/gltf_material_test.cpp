@@ -117,9 +117,9 @@ TEST_CASE("pictures are decoded on two threads where the decoder allows it, and 
   };
   Json file = {{"asset", {{"version", "2.0"}}}};
   for (int i = 0; i < 8; ++i) {
-    const std::string name = "p" + std::to_string(i) + ".png";
+    const std::string name = std::to_string(i) + ".png";
     box().put(name, std::string(std::size_t(i + 1), 'x'));
-    file["images"].push_back({{"uri", i == 7 ? "./p4.png" : name}});
+    file["images"].push_back({{"uri", i == 7 ? "./4.png" : name}});
     file["textures"].push_back({{"source", i}});
     file["materials"].push_back({{"emissiveTexture", {{"index", i}}}});
   }
