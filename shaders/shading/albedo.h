@@ -1,4 +1,5 @@
-// Albedo in the G-buffer: its square root in 8 bits. The same precision as sRGB (steps differ by at most 14 % over 0.01 .. 1), without the power function that a
+// Albedo in the G-buffer: its square root in 8 bits. The same precision as sRGB (steps differ by at most 14 % over 0.046 .. 1, by 29 % at 0.01;
+// the worst error is 0.0039 against 0.0045), without the power function that a
 // software renderer pays on every write and read.
 
 FN vec3 encodeAlbedo(vec3 c) { return sqrt(clamp(c, vec3(R(0.0)), vec3(R(1.0)))); }

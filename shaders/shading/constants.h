@@ -15,11 +15,5 @@
 // n·v under this is treated as grazing at this angle (interpolated normals may face away from the eye).
 #define BURNISH_GUARD_NOV R(1e-4)
 
-// |n×h|² is held under this, the largest float below 1: there h lies in the surface, ln(1 - |n×h|²) would be minus infinity and the lobe 0 · infinity.
-#define BURNISH_GUARD_SIN2 R(0.99999994)
-
 // Arguments of logarithms are held above this; (n·h)^p is 0 there for every p that the pipeline uses.
 #define BURNISH_GUARD_LOG R(1e-30)
-
-// sin² of the half angle is held under 1: ln(1 - x) has a pole there, and 0 · inf would reach the picture. h lies in the surface then, so n·l <= 0 for every visible point.
-#define BURNISH_GUARD_SIN2 R(0.9999999)

@@ -7,7 +7,7 @@ FN real lobeExp2(real sum, real inverse, real p) {
   return exp2(R(0.5) * p * log2(clamp(noh * noh * inverse, BURNISH_GUARD_LOG, R(1.0))));
 }
 
-// ln(1 - x) for x in [0, BURNISH_GUARD_SIN2], relative error below 3e-7 in float also where x is tiny and 1 - x would round to 1.
+// ln(1 - x) for x in [0, 1], relative error below 3e-7 in float also where x is tiny and 1 - x would round to 1.
 // With scale = 2^-e such that m = (1 - x) scale lies in [sqrt(1/2), sqrt(2)):  ln(1 - x) = 2 artanh((m - 1)/(m + 1)) + e ln 2
 // (Abramowitz and Stegun 4.1.27); the argument is under 0.172, so four terms do. For e = 0 the numerator m - 1 is -x itself: nothing cancels.
 FN real logOneMinus(real x) {
@@ -21,7 +21,7 @@ FN real logOneMinus(real x) {
 
 // Through the sine: (n·h)^p = exp(p/2 · ln(1 - |n×h|²)). Stable: absolute error 2.5e-5 at r = 0.05, 1.5e-4 at 0.02 in float
 // within 45 degrees of the normal, seven times that toward grazing, where the rounding of l and v themselves turns h.
-FN real lobeStable(real sin2, real p) { return exp2(R(0.5) * p * R(1.4426950408889634) * logOneMinus(clamp(sin2, R(0.0), BURNISH_GUARD_SIN2))); }
+FN real lobeStable(real sin2, real p) { return exp2(R(0.5) * p * R(1.4426950408889634) * logOneMinus(clamp(sin2, R(0.0), R(1.0)))); }
 
 // |n×h|² of h = (l + v)/|l + v|, from what l and v leave in the tangent plane: h's own length along n never enters, so nothing cancels near the mirror direction.
 // nol = n·l, vt = v - n (n·v), inverse = 1/|l + v|².
