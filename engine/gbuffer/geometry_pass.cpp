@@ -38,6 +38,7 @@ Result<void> drawInstances(FrameContext& c, plan::GeometryPass pass, bool occlus
   const GladGLContext& gl = c.device.gl;
   RasterState raster(gl);
   const gl::Program* used = nullptr;
+  gpu_scene::BoundInstance bound;
   const gl::VertexArray* array = nullptr;
   // At most sixteen variants: looked up once each.
   std::array<const gl::Program*, 16> programs{};
@@ -53,16 +54,15 @@ Result<void> drawInstances(FrameContext& c, plan::GeometryPass pass, bool occlus
       programs[key] = c.programs.find(name);
       if (!programs[key]) return fail("frame plan", fmt::format("program '{}' is not in it", name), "report this as a fault of the engine");
     }
-    const gpu_scene::GpuMesh* mesh = nullptr;
-    if (!gpu_scene::bindInstance(c, i, variant.general, mesh)) continue;
+    if (!gpu_scene::bindInstance(c, i, variant.general, bound)) continue;
     if (programs[key] != used) (used = programs[key])->use();
     if (const gl::VertexArray* wanted = variant.general ? &c.buffers.general : &c.buffers.plain; wanted != array) (array = wanted)->bind();
     raster.set(material.twoSided, v.flipped);
     before(material);
-    gl.DrawElements(GL_TRIANGLES, mesh->indexCount, mesh->indexType, nullptr);
+    gl.DrawElements(GL_TRIANGLES, bound.mesh->indexCount, bound.mesh->indexType, nullptr);
     if (pass == plan::GeometryPass::GBuffer) {
       ++c.stats.draws;
-      c.stats.triangles += std::uint64_t(mesh->indexCount) / 3;
+      c.stats.triangles += std::uint64_t(bound.mesh->indexCount) / 3;
     }
   }
   return {};

@@ -165,22 +165,27 @@ Result<void> uploadDraws(FrameContext& c) {
   return c.buffers.draws.write(bytes);
 }
 
-bool bindInstance(FrameContext& c, std::size_t i, bool general, const GpuMesh*& mesh) {
+bool bindInstance(FrameContext& c, std::size_t i, bool general, BoundInstance& bound) {
   const scene::VisibleInstance& v = c.visible[i];
   const Material* material = c.scene.materials.get(v.instance->material);
-  mesh = c.gpuScene.mesh(c.scene, v.instance->mesh, material && material->mapB, c.report);
+  const GpuMesh* mesh = c.gpuScene.mesh(c.scene, v.instance->mesh, material && material->mapB, c.report);
   if (!mesh) return false;
   const GladGLContext& gl = c.device.gl;
-  const gl::VertexArray& array = general ? c.buffers.general : c.buffers.plain;
-  gl.VertexArrayVertexBuffer(array.id(), 0, mesh->vertices.id(), 0, GpuMesh::kStride);
-  // A mesh without extras in a general program: its vertices stand in; DrawData says that there is no colour, and uv set 1 is not asked for.
-  if (general) gl.VertexArrayVertexBuffer(array.id(), 1, mesh->extras ? mesh->extras.id() : mesh->vertices.id(), 0, mesh->extras ? GpuMesh::kExtraStride : GpuMesh::kStride);
-  gl.VertexArrayElementBuffer(array.id(), mesh->indices.id());
+  if (mesh != bound.mesh || general != bound.general) {
+    const GLuint array = (general ? c.buffers.general : c.buffers.plain).id();
+    gl.VertexArrayVertexBuffer(array, 0, mesh->vertices.id(), 0, GpuMesh::kStride);
+    // A mesh without extras in a general program: its vertices stand in; DrawData says that there is no colour, and uv set 1 is not asked for.
+    if (general) gl.VertexArrayVertexBuffer(array, 1, mesh->extras ? mesh->extras.id() : mesh->vertices.id(), 0, mesh->extras ? GpuMesh::kExtraStride : GpuMesh::kStride);
+    gl.VertexArrayElementBuffer(array, mesh->indices.id());
+  }
   c.buffers.draws.bindRange(GL_UNIFORM_BUFFER, BINDING_DRAW, i * c.buffers.drawStride, sizeof(DrawData));
   const MaterialBinding& m = c.gpuScene.material(c.scene, v.instance->material, c.report);
-  c.gpuScene.materials().bindRange(GL_UNIFORM_BUFFER, BINDING_MATERIAL, m.offset, sizeof(MaterialData));
-  gl.BindTextures(0, 5, m.texture.data());
-  gl.BindSamplers(0, 5, m.sampler.data());
+  if (&m != bound.material) {
+    c.gpuScene.materials().bindRange(GL_UNIFORM_BUFFER, BINDING_MATERIAL, m.offset, sizeof(MaterialData));
+    gl.BindTextures(0, 5, m.texture.data());
+    gl.BindSamplers(0, 5, m.sampler.data());
+  }
+  bound = {mesh, &m, general};
   return true;
 }
 

@@ -87,6 +87,13 @@ Result<void> uploadFrameData(FrameContext& context, float displayExposure);
 /// Transforms of every visible instance into buffers.draws, in order.
 Result<void> uploadDraws(FrameContext& context);
 /// Binds geometry and uniform ranges of visible instance i; false when its mesh is not there (yet). `general`: the program reads the second vertex buffer.
-bool bindInstance(FrameContext& context, std::size_t i, bool general, const GpuMesh*& mesh);
+/// `bound` remembers what the last call bound, so that nothing is bound twice in a row (each binding makes a software renderer prepare its state anew);
+/// start each pass with an empty one.
+struct BoundInstance {
+  const GpuMesh* mesh = nullptr;
+  const MaterialBinding* material = nullptr;
+  bool general = false;
+};
+bool bindInstance(FrameContext& context, std::size_t i, bool general, BoundInstance& bound);
 
 }  // namespace burnish::gpu_scene
