@@ -8,7 +8,7 @@
 
 namespace burnish::prefilter {
 
-/// Texels on each side. Column i stands for n·v = i/(size-1), row j for perceptual roughness j/(size-1).
+/// Texels on each side. Column i stands for n·v = i/(size-1), row j for perceptual roughness j/(size-1); dfgCoordinate of shading/environment.h leads there.
 inline constexpr int kDfgSize = 64;
 /// kDfgSize² pairs (scale, bias) as 16-bit unsigned normalized: E(v) = F0 · scale + bias, Schlick's Fresnel, exact normalization.
 std::span<const std::uint16_t> dfgTable(Geometry geometry);

@@ -45,7 +45,7 @@ vec3 surroundings(Surface m, float occlusion) {
   float nov = clamp(m.nov, BURNISH_GUARD_NOV, 1.0);
   float roughness = sqrt(m.alpha);
   vec3 r = m.n * (2.0 * m.nov) - m.v;
-  vec2 dfg = texture(dfgTable, vec2(nov, roughness)).rg;
+  vec2 dfg = texture(dfgTable, dfgCoordinate(nov, roughness)).rg;
   vec3 reflectance = m.f0 * dfg.x + vec3(dfg.y);
   vec3 specular = textureLod(environmentCube, r, environmentLevel(roughness, frame.environment.x)).rgb * frame.background.w;
   vec3 diffuse = max(irradianceSh(m.n, frame.irradiance[0].rgb, frame.irradiance[1].rgb, frame.irradiance[2].rgb, frame.irradiance[3].rgb, frame.irradiance[4].rgb,
