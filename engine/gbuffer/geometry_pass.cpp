@@ -20,6 +20,13 @@ class RasterState {
     gl_.Enable(GL_CULL_FACE);
     gl_.FrontFace(GL_CCW);
   }
+  // A mirrored instance may come last: the screen triangles of the passes that follow must not be culled.
+  ~RasterState() {
+    gl_.Disable(GL_CULL_FACE);
+    gl_.FrontFace(GL_CCW);
+  }
+  RasterState(const RasterState&) = delete;
+  RasterState& operator=(const RasterState&) = delete;
   void set(bool twoSided, bool flipped) {
     if (twoSided != twoSided_) twoSided ? gl_.Disable(GL_CULL_FACE) : gl_.Enable(GL_CULL_FACE);
     if (flipped != flipped_) gl_.FrontFace(flipped ? GL_CW : GL_CCW);
