@@ -178,6 +178,9 @@ struct Errors {
   [[nodiscard]] double share() const { return count ? double(within) / double(count) : 0; }
 };
 
+/// The same bytes. (Catch would print them all.)
+inline bool same(const Picture& a, const Picture& b) { return a.image.width == b.image.width && a.image.height == b.image.height && a.image.data == b.image.data; }
+
 inline Errors difference(const Picture& a, const Picture& b, double bound) {
   Errors e;
   REQUIRE(a.image.width == b.image.width);
