@@ -22,8 +22,8 @@ enum class GeometryPass : std::uint8_t { GBuffer, Emissive, Pick };
 /// occlusionTarget: the frame has a third target.
 ProgramPlan geometryProgram(GeometryPass pass, GeometryVariant variant, bool occlusionTarget);
 
-/// Sizes of the unrolled lighting programs: a tile's list is padded to the next one; longer lists are looped over.
-inline constexpr int kTileBuckets[] = {0, 1, 2, 3, 4, 6, 8, 10, 12, 14};
+/// Sizes of the unrolled lighting programs (10 lights, rays and irradiance fill 30 of 32 varyings): a tile's list is padded to the next one; longer lists are looped over.
+inline constexpr int kTileBuckets[] = {0, 1, 2, 3, 4, 6, 8, 10};
 inline constexpr int kLoop = -1;  ///< the program that loops: long lists and spots
 /// `directional` lights, `environment`: the surroundings light the scene.
 ProgramPlan lightingProgram(int bucket, const Quality& quality, int directional, bool environment, bool occlusion, bool orthographic);

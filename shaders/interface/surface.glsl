@@ -8,15 +8,15 @@ layout(binding = UNIT_DEPTH) uniform sampler2D gbufferDepth;
 layout(binding = UNIT_GBUFFER_C) uniform sampler2D gbufferC;
 #endif
 
-// Camera-relative world position (m) of a fragment whose depth is z.
-vec3 positionAt(vec2 pixel, float z, out vec3 toEye) {
-  vec3 ray = frame.rayOrigin.xyz + frame.rayX.xyz * pixel.x + frame.rayY.xyz * pixel.y;
+// Camera-relative world position (m) of a fragment whose depth is z. origin, x, y: FrameData's rays with depthParams.x and .y in the first two's w.
+vec3 positionAt(vec2 pixel, float z, vec4 origin, vec4 x, vec4 y, out vec3 toEye) {
+  vec3 ray = origin.xyz + x.xyz * pixel.x + y.xyz * pixel.y;
 #if ORTHOGRAPHIC
   toEye = -frame.forward.xyz;
-  return ray + frame.forward.xyz * (frame.depthParams.x - z * frame.depthParams.y);
+  return ray + frame.forward.xyz * (origin.w - z * x.w);
 #else
   toEye = ray * -inversesqrt(dot(ray, ray));
-  return ray * (frame.depthParams.x / (z + frame.depthParams.y));
+  return ray * (origin.w / (z + x.w));
 #endif
 }
 

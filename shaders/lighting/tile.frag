@@ -21,10 +21,14 @@
 layout(binding = UNIT_ENVIRONMENT) uniform samplerCube environmentCube;
 layout(binding = UNIT_DFG) uniform sampler2D dfgTable;
 #endif
+layout(location = 0) flat in vec4 ray[3];
+#if ENVIRONMENT
+layout(location = 3) flat in vec4 irradiance[7];
+#endif
 #if TILE_LIGHTS > 0
-layout(location = 0) flat in vec4 lightData[2 * TILE_LIGHTS];
+layout(location = 10) flat in vec4 lightData[2 * TILE_LIGHTS];
 #elif TILE_LIGHTS < 0
-layout(location = 0) flat in ivec2 lightRange;
+layout(location = 10) flat in ivec2 lightRange;
 layout(binding = UNIT_LIGHTS) uniform samplerBuffer lights;
 layout(binding = UNIT_LIGHT_LISTS) uniform usamplerBuffer lightLists;
 #endif
@@ -45,11 +49,12 @@ vec3 surroundings(Surface m, float occlusion) {
   float nov = clamp(m.nov, BURNISH_GUARD_NOV, 1.0);
   float roughness = sqrt(m.alpha);
   vec3 r = m.n * (2.0 * m.nov) - m.v;
-  vec2 dfg = texture(dfgTable, dfgCoordinate(nov, roughness)).rg;
+  vec2 dfg = texture(dfgTable, vec2(nov, roughness)).rg;
   vec3 reflectance = m.f0 * dfg.x + vec3(dfg.y);
-  vec3 specular = textureLod(environmentCube, r, environmentLevel(roughness, frame.environment.x)).rgb * frame.background.w;
-  vec3 diffuse = max(irradianceSh(m.n, frame.irradiance[0].rgb, frame.irradiance[1].rgb, frame.irradiance[2].rgb, frame.irradiance[3].rgb, frame.irradiance[4].rgb,
-                                  frame.irradiance[5].rgb, frame.irradiance[6].rgb, frame.irradiance[7].rgb, frame.irradiance[8].rgb), vec3(0.0));
+  vec3 specular = textureLod(environmentCube, r, environmentLevel(roughness, irradiance[6].a)).rgb * frame.background.w;
+  vec3 diffuse = max(irradianceSh(m.n, irradiance[0].rgb, vec3(irradiance[0].a, irradiance[1].rg), vec3(irradiance[1].ba, irradiance[2].r), irradiance[2].gba,
+                                  irradiance[3].rgb, vec3(irradiance[3].a, irradiance[4].rg), vec3(irradiance[4].ba, irradiance[5].r), irradiance[5].gba,
+                                  irradiance[6].rgb), vec3(0.0));
 #if OCCLUSION
   specular *= specularOcclusion(nov, occlusion, m.alpha);
   diffuse *= occlusion;
@@ -64,7 +69,7 @@ void main() {
   vec4 b = texelFetch(gbufferB, q, 0);
   float z = texelFetch(gbufferDepth, q, 0).r;
   vec3 toEye;
-  vec3 p = positionAt(gl_FragCoord.xy - vec2(frame.viewport.xy), max(z, 1e-30), toEye);
+  vec3 p = positionAt(gl_FragCoord.xy, max(z, 1e-30), ray[0], ray[1], ray[2], toEye);
   Surface m = surfaceAt(a, b, toEye);
   vec3 sum = vec3(0.0);
   for (int i = 0; i < DIRECTIONAL; ++i)
@@ -90,5 +95,5 @@ void main() {
   sum += surroundings(m, occlusion);
 #endif
   // Nothing was drawn where z is 0: black there, for a background to replace.
-  outRadiance = vec4(z > 0.0 ? min(sum, vec3(frame.exposure.w)) : vec3(0.0), 1.0);
+  outRadiance = vec4(z > 0.0 ? min(sum, vec3(ray[2].w)) : vec3(0.0), 1.0);
 }

@@ -20,7 +20,8 @@ void main() {
   vec4 b = texelFetch(gbufferB, q, 0);
   float z = texelFetch(gbufferDepth, q, 0).r;
   vec3 toEye;
-  vec3 p = positionAt(gl_FragCoord.xy - vec2(frame.viewport.xy), max(z, 1e-30), toEye);
+  vec3 p = positionAt(gl_FragCoord.xy - vec2(frame.viewport.xy), max(z, 1e-30), vec4(frame.rayOrigin.xyz, frame.depthParams.x),
+                      vec4(frame.rayX.xyz, frame.depthParams.y), frame.rayY, toEye);
   vec3 c = vec3(0.0);
   if (GEOMETRY == 1 && z > 0.0) {
 #if VIEW == 1

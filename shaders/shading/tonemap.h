@@ -50,12 +50,10 @@ FN vec3 tonemapAgx(vec3 c) {
 
 // IEC 61966-2-1.
 FN real srgbFromLinear(real x) { return x <= R(0.0031308) ? R(12.92) * x : R(1.055) * pow(x, R(1.0) / R(2.4)) - R(0.055); }
-// The same for x in [0,1] within 0.25/255, from square roots alone: Ian Taylor's fit (chilliant.com, 2012), three roots and a linear toe.
+// The same for x in [0,1] within 0.1/255, without a power function: a polynomial of degree 5 in sqrt(x), fitted to the curve above the linear toe.
 FN real srgbFromLinearFast(real x) {
-  real s1 = sqrt(x);
-  real s2 = sqrt(s1);
-  real s3 = sqrt(s2);
-  real curve = R(0.662002687) * s1 + R(0.684122060) * s2 - R(0.323583601) * s3 - R(0.0225411470) * x;
+  real s = sqrt(x);
+  real curve = R(-0.04010945) + s * (R(1.51794743) + s * (R(-1.40271549) + s * (R(2.03152262) + s * (R(-1.62360270) + s * R(0.51728135)))));
   return x <= R(0.0031308) ? R(12.92) * x : curve;
 }
 FN real linearFromSrgb(real x) { return x <= R(0.04045) ? x / R(12.92) : pow((x + R(0.055)) / R(1.055), R(2.4)); }
