@@ -38,7 +38,14 @@ struct Stage {
     if (!made) FAIL("no renderer: " << made.error().message());
     renderer = std::move(*made);
   }
+  ~Stage() {
+    if (context->makeCurrent()) renderer.reset();
+  }
+  Stage(const Stage&) = delete;
+  Stage& operator=(const Stage&) = delete;
   Result<Picture> tryDraw(const Scene& scene, std::span<const View> views, glm::ivec2 size, const Quality& quality, const RenderRequest& request) {
+    // Another stage may have come and gone.
+    if (auto current = context->makeCurrent(); !current) return fail(current.error());
     auto target = OffscreenTarget::create(context->procAddress(), size, request.output);
     if (!target) return fail(target.error());
     auto stats = renderer->render(scene, views, (*target)->target(), quality, request);
