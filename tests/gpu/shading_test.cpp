@@ -1,15 +1,15 @@
 // The shading text as GLSL, on the backend under test, against the same text as C++ in double: one texel per case.
+#include "reference/shading.h"
+
 #include <functional>
 #include <random>
 #include <vector>
 
-#include "gl/program.h"
-#include "gl_fixture.h"
-#include "reference/shading.h"
+#include "shader_cases.h"
 
 using namespace burnish;
-using namespace burnish::gl;
 using burnish::test::GlFixture;
+using burnish::test::onGpu;
 using glm::dvec3;
 using glm::vec3;
 using glm::vec4;
@@ -18,76 +18,7 @@ namespace f32 = burnish::shading::f32;
 
 namespace {
 
-constexpr EmbeddedShader kPrograms[] = {
-    {"cases.vert",
-     "void main() {\n  vec2 p = vec2(gl_VertexID == 1 ? 3 : -1, gl_VertexID == 2 ? 3 : -1);\n  gl_Position = vec4(p, 0, 1);\n}\n"},
-    // Row k of `cases` holds the k-th vec4 of every case. EVALUATE makes a vec4 of a, b, c, d.
-    {"cases.frag", R"(#include "shading/bridge.h"
-#include "shading/constants.h"
-#include "shading/roughness.h"
-#include "shading/normals.h"
-#include "shading/albedo.h"
-#include "shading/substance.h"
-#include "shading/fresnel.h"
-#include "shading/lobe.h"
-#include "shading/distribution.h"
-#include "shading/geometry.h"
-#include "shading/light.h"
-#include "shading/surface.h"
-#include "shading/default_path.h"
-#include "shading/environment.h"
-#include "shading/tonemap.h"
-layout(binding = 0) uniform sampler2D cases;
-layout(location = 0) out vec4 result;
-vec4 shade(vec4 n, vec4 l, vec4 v, vec4 albedo, int geometry, int lobe) {
-  return vec4(shadeDirection(makeSurface(n.xyz, v.xyz, albedo.rgb, albedo.a, n.w), l.xyz, geometry, lobe), 0.0);
-}
-void main() {
-  int i = int(gl_FragCoord.x), row = 4 * int(gl_FragCoord.y);
-  vec4 a = texelFetch(cases, ivec2(i, row), 0), b = texelFetch(cases, ivec2(i, row + 1), 0);
-  vec4 c = texelFetch(cases, ivec2(i, row + 2), 0), d = texelFetch(cases, ivec2(i, row + 3), 0);
-  result = EVALUATE;
-}
-)"},
-};
-
-using Case = std::array<vec4, 4>;
-constexpr int kWidth = 512;
-
-/// Runs EVALUATE over the cases, on the GPU.
-std::vector<vec4> onGpu(GlFixture& f, std::vector<Case> cases, const std::string& evaluate) {
-  const std::size_t count = cases.size();
-  const int height = int((count + kWidth - 1) / kWidth);
-  cases.resize(std::size_t(height) * kWidth, cases.back());
-  std::vector<vec4> texels(cases.size() * 4), results(cases.size());
-  for (std::size_t i = 0; i < cases.size(); ++i)
-    for (std::size_t k = 0; k < 4; ++k) texels[(i / kWidth * 4 + k) * kWidth + i % kWidth] = cases[i][k];
-
-  std::vector<EmbeddedShader> files(std::begin(kPrograms), std::end(kPrograms));
-  for (const EmbeddedShader& file : embeddedShaders()) files.push_back(file);
-  ProgramCache cache(*f.device, ShaderLibrary({}, files));
-  auto program = cache.get({"cases", "cases.vert", "cases.frag", "", {"EVALUATE " + evaluate}});
-  if (!program) FAIL(program.error().message());
-  auto input = Texture::create(*f.device, {GL_TEXTURE_2D, GL_RGBA32F, kWidth, 4 * height}, "cases");
-  auto output = Texture::create(*f.device, {GL_TEXTURE_2D, GL_RGBA32F, kWidth, height}, "results");
-  REQUIRE(input);
-  REQUIRE(output);
-  input->upload(0, texels.data());
-  const Attachment color(*output);
-  auto framebuffer = Framebuffer::create(*f.device, {&color, 1}, {}, "results");
-  REQUIRE(framebuffer);
-  const VertexArray none = VertexArray::create(*f.device, {}, {}, 0, "none");
-  framebuffer->bind();
-  none.bind();
-  (*program)->use();
-  input->bind(0);
-  f.gl.Viewport(0, 0, kWidth, height);
-  f.gl.DrawArrays(GL_TRIANGLES, 0, 3);
-  f.gl.UseProgram(0);
-  output->read(0, std::as_writable_bytes(std::span(results)));
-  results.resize(count);
-  return results;
-}
+using Case = burnish::test::ShaderCase;
 
 vec3 randomUnit(std::mt19937& random) {
   std::normal_distribution<float> normal;
@@ -96,12 +27,17 @@ vec3 randomUnit(std::mt19937& random) {
     if (glm::length(v) > 0.1f) return glm::normalize(v);
   }
 }
-float uniform(std::mt19937& random, float low, float high) { return std::uniform_real_distribution<float>(low, high)(random); }
+float uniform(std::mt19937& random, float low, float high) {
+  return std::uniform_real_distribution<float>(low, high)(random);
+}
 
-bool finite(const vec4& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w); }
+bool finite(const vec4& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
+}
 
 /// Worst |gpu - truth| / scale over the cases; every result must be finite.
-double worstError(std::span<const Case> cases, std::span<const vec4> gpu, const std::function<dvec3(const Case&)>& truth,
+double worstError(std::span<const Case> cases, std::span<const vec4> gpu,
+                  const std::function<dvec3(const Case&)>& truth,
                   const std::function<double(const Case&, const dvec3&)>& scale) {
   double worst = 0;
   for (std::size_t i = 0; i < cases.size(); ++i) {
@@ -122,9 +58,11 @@ std::vector<Case> shadingCases(int count, float lowest) {
     const vec3 n = randomUnit(random), v = randomUnit(random);
     const float r = uniform(random, 0.02f, 1.0f), alpha = r * r;
     // Every other light near the mirror direction, where the lobe is.
-    const vec3 h = glm::normalize(n + randomUnit(random) * alpha), l = cases.size() % 2 ? glm::normalize(glm::reflect(-v, h)) : randomUnit(random);
+    const vec3 h = glm::normalize(n + randomUnit(random) * alpha),
+               l = cases.size() % 2 ? glm::normalize(glm::reflect(-v, h)) : randomUnit(random);
     if (dot(n, v) < lowest || dot(n, l) < lowest || dot(l, v) < -0.9f) continue;
-    cases.push_back({vec4(n, alpha), vec4(l, 0), vec4(v, 0), vec4(uniform(random, 0, 1), uniform(random, 0, 1), uniform(random, 0, 1), uniform(random, 0, 1))});
+    cases.push_back({vec4(n, alpha), vec4(l, 0), vec4(v, 0),
+                     vec4(uniform(random, 0, 1), uniform(random, 0, 1), uniform(random, 0, 1), uniform(random, 0, 1))});
   }
   return cases;
 }
@@ -154,15 +92,18 @@ TEST_CASE("GLSL: normals are packed and unpacked as in C++") {
     worst = std::fmax(worst, 2 * std::asin(glm::length(glm::normalize(dvec3(stored[i])) - truth) / 2));
     if (i < 6) CHECK(glm::length(dvec3(stored[i]) - n) < 1e-6);
   }
-  WARN("packed normals: worst angle " << worst * 57.29577951 << " degrees; " << differing << " of " << cases.size() << " codes differ from double's");
+  WARN("packed normals: worst angle " << worst * 57.29577951 << " degrees; " << differing << " of " << cases.size()
+                                      << " codes differ from double's");
   CHECK(worst * 57.29577951 < 0.0589 * 1.02);
   CHECK(differing < int(cases.size()) / 200);  // ties
 
   std::vector<Case> triples;
-  for (int i = 0; i < 50'000; ++i) triples.push_back({vec4(float(random() % 256), float(random() % 256), float(random() % 256), 0) / 255.0f});
+  for (int i = 0; i < 50'000; ++i)
+    triples.push_back({vec4(float(random() % 256), float(random() % 256), float(random() % 256), 0) / 255.0f});
   const auto unpacked = onGpu(f, triples, "vec4(unpackNormal(a.rgb), 0.0)");
   // Any three bytes, also those that no normal packs to.
-  const double error = worstError(triples, unpacked, [](const Case& c) { return f64::unpackNormal(glm::round(dvec3(c[0]) * 255.0) / 255.0); }, one);
+  const double error = worstError(
+      triples, unpacked, [](const Case& c) { return f64::unpackNormal(glm::round(dvec3(c[0]) * 255.0) / 255.0); }, one);
   WARN("unpackNormal: off by at most " << error);
   CHECK(error < 2e-6);
 }
@@ -170,7 +111,8 @@ TEST_CASE("GLSL: normals are packed and unpacked as in C++") {
 TEST_CASE("GLSL: roughness codes") {
   GlFixture f;
   std::vector<Case> cases;
-  for (int i = 0; i <= 4096; ++i) cases.push_back({vec4(float(i) / 4096, std::exp2(-11.2877f * float(i) / 4096), 0, 0)});
+  for (int i = 0; i <= 4096; ++i)
+    cases.push_back({vec4(float(i) / 4096, std::exp2(-11.2877f * float(i) / 4096), 0, 0)});
   for (const float bad : {0.0f, -1.0f, 2.0f, 1e30f, 1e-38f}) cases.push_back({vec4(0.5f, bad, 0, 0)});
   const auto gpu = onGpu(f, cases, "vec4(encodeAlpha(a.y), decodeAlpha(a.x), powerFromAlpha(decodeAlpha(a.x)), 0.0)");
   double encode = 0, decode = 0, power = 0;
@@ -181,7 +123,8 @@ TEST_CASE("GLSL: roughness codes") {
     decode = std::fmax(decode, std::abs(double(gpu[i].y) / alpha - 1));
     power = std::fmax(power, std::abs(double(gpu[i].z) - p) / (p + 2));
   }
-  WARN("encodeAlpha off by " << encode * 255 << "/255, decodeAlpha by " << decode << " of alpha, power by " << power << " of p + 2");
+  WARN("encodeAlpha off by " << encode * 255 << "/255, decodeAlpha by " << decode << " of alpha, power by " << power
+                             << " of p + 2");
   CHECK(encode < 1e-6);
   CHECK(decode < 5e-6);
   CHECK(power < 1e-5);
@@ -199,7 +142,8 @@ TEST_CASE("GLSL: the stable lobe") {
     for (const float p : {0.0f, 1.0f, 1.25e7f}) cases.push_back({vec4(sin2, p, 0, 0)});
   const auto truth = [](const Case& c) {
     const double x = std::clamp(double(c[0].x), 0.0, 1.0);
-    return dvec3(std::exp(0.5 * double(c[0].y) * (x == 1 ? std::log(1e-30) : std::log1p(-x))), 0, 0);  // BURNISH_GUARD_LOG
+    return dvec3(std::exp(0.5 * double(c[0].y) * (x == 1 ? std::log(1e-30) : std::log1p(-x))), 0,
+                 0);  // BURNISH_GUARD_LOG
   };
   const auto gpu = onGpu(f, cases, "vec4(lobeStable(a.x, a.y), 0.0, 0.0, 0.0)");
   const double error = worstError(cases, gpu, truth, one);
@@ -233,29 +177,35 @@ TEST_CASE("GLSL: the lighting equation is finite and not negative on hard inputs
   const vec3 n(0, 0, 1);
   std::vector<vec3> directions = {n, -n, vec3(1, 0, 0), vec3(0, -1, 0)};
   for (const float z : {1e-7f, 1e-4f, 0.01f, 0.7f, -1e-7f, -1e-4f, -0.3f})
-    for (const vec3 side : {vec3(1, 0, 0), vec3(-1, 0, 0), vec3(0.6f, 0.8f, 0)}) directions.emplace_back(side * std::sqrt(1 - z * z) + n * z);
+    for (const vec3 side : {vec3(1, 0, 0), vec3(-1, 0, 0), vec3(0.6f, 0.8f, 0)})
+      directions.emplace_back(side * std::sqrt(1 - z * z) + n * z);
   std::vector<Case> cases;
   for (const vec3& v : directions)
     for (std::size_t k = 0; k <= directions.size(); ++k) {
       const vec3 l = k < directions.size() ? directions[k] : -v;
       for (const float r : {0.02f, 0.3f, 1.0f})
-        for (const vec4& material : {vec4(0), vec4(1), vec4(1, 1, 1, 0), vec4(0, 0, 0, 1), vec4(0.5f, 0.5f, 0.5f, 0.4f)})
+        for (const vec4& material :
+             {vec4(0), vec4(1), vec4(1, 1, 1, 0), vec4(0, 0, 0, 1), vec4(0.5f, 0.5f, 0.5f, 0.4f)})
           cases.push_back({vec4(n, r * r), vec4(l, 0), vec4(v, 0), material});
     }
   // Lights behind by as much as the eye is before: the half vector lies in the surface.
   std::mt19937 random(11);
   for (int i = 0; i < 2000; ++i) {
-    const vec3 v = randomUnit(random), t = randomUnit(random), l = glm::normalize(vec3(t.x, t.y, 0)) * std::sqrt(1 - v.z * v.z) - n * v.z;
+    const vec3 v = randomUnit(random), t = randomUnit(random),
+               l = glm::normalize(vec3(t.x, t.y, 0)) * std::sqrt(1 - v.z * v.z) - n * v.z;
     cases.push_back({vec4(n, 0.01f), vec4(l, 0), vec4(v, 0), vec4(0.5f)});
   }
-  for (const char* evaluate : {"shade(a, b, c, d, 0, 0)", "shade(a, b, c, d, 0, 1)", "shade(a, b, c, d, 1, 0)", "shade(a, b, c, d, 1, 1)"}) {
+  for (const char* evaluate :
+       {"shade(a, b, c, d, 0, 0)", "shade(a, b, c, d, 0, 1)", "shade(a, b, c, d, 1, 0)", "shade(a, b, c, d, 1, 1)"}) {
     const auto gpu = onGpu(f, cases, evaluate);
     for (std::size_t i = 0; i < cases.size(); ++i) {
       const vec4 &l = cases[i][1], &v = cases[i][2];
-      CAPTURE(evaluate, cases[i][0].w, l.x, l.y, l.z, v.x, v.y, v.z, cases[i][3].x, cases[i][3].w, gpu[i].x, gpu[i].y, gpu[i].z);
+      CAPTURE(evaluate, cases[i][0].w, l.x, l.y, l.z, v.x, v.y, v.z, cases[i][3].x, cases[i][3].w, gpu[i].x, gpu[i].y,
+              gpu[i].z);
       REQUIRE(finite(gpu[i]));
       REQUIRE(gpu[i].x >= -1e-6f);
-      if (l.z <= 0 && v.z >= 0) REQUIRE(vec3(gpu[i]) == vec3(0));  // makeSurface turns a normal that looks away from the eye
+      if (l.z <= 0 && v.z >= 0)
+        REQUIRE(vec3(gpu[i]) == vec3(0));  // makeSurface turns a normal that looks away from the eye
     }
   }
 }
@@ -265,14 +215,19 @@ TEST_CASE("GLSL: attenuation and occlusion") {
   std::mt19937 random(5);
   std::vector<Case> cases;
   for (int i = 0; i < 10'000; ++i) {
-    const float reach = uniform(random, 0.5f, 50.0f), d = reach * uniform(random, 0.02f, 1.2f), d2 = std::fmax(d * d, 1e-4f);
+    const float reach = uniform(random, 0.5f, 50.0f), d = reach * uniform(random, 0.02f, 1.2f),
+                d2 = std::fmax(d * d, 1e-4f);
     const bool window = i % 2 == 0;
     cases.push_back({vec4(d2, window ? 1 / (reach * reach * reach * reach) : 0, window ? 0 : 1 / (reach * reach), 0),
                      vec4(uniform(random, 0, 1), uniform(random, 0, 1), uniform(random, 4e-4f, 1), 0)});
   }
   const auto gpu = onGpu(f, cases, "vec4(distanceAttenuation(a.x, 1.0 / a.x, a.y, a.z), 0.0, 0.0, 0.0)");
   const double error = worstError(
-      cases, gpu, [](const Case& c) { return dvec3(f64::distanceAttenuation(double(c[0].x), 1 / double(c[0].x), double(c[0].y), double(c[0].z)), 0, 0); },
+      cases, gpu,
+      [](const Case& c) {
+        return dvec3(f64::distanceAttenuation(double(c[0].x), 1 / double(c[0].x), double(c[0].y), double(c[0].z)), 0,
+                     0);
+      },
       [](const Case& c, const dvec3&) { return 1 / double(c[0].x); });
   WARN("distanceAttenuation: off by at most " << error << " of the inverse square");
   CHECK(error < 1e-6);
@@ -282,7 +237,8 @@ TEST_CASE("GLSL: attenuation and occlusion") {
       for (const float alpha : {4e-4f, 1.0f}) cases.push_back({vec4(1), vec4(nov, ao, alpha, 0)});
   const double occlusion = worstError(
       cases, onGpu(f, cases, "vec4(specularOcclusion(b.x, b.y, b.z), 0.0, 0.0, 0.0)"),
-      [](const Case& c) { return dvec3(f64::specularOcclusion(double(c[1].x), double(c[1].y), double(c[1].z)), 0, 0); }, one);
+      [](const Case& c) { return dvec3(f64::specularOcclusion(double(c[1].x), double(c[1].y), double(c[1].z)), 0, 0); },
+      one);
   WARN("specularOcclusion: off by at most " << occlusion);
   CHECK(occlusion < 5e-6);
 }
@@ -290,26 +246,33 @@ TEST_CASE("GLSL: attenuation and occlusion") {
 TEST_CASE("GLSL: tone maps") {
   GlFixture f;
   std::mt19937 random(6);
-  std::vector<Case> cases = {{vec4(0)}, {vec4(65504)}, {vec4(65504, 0, 0, 0)}, {vec4(0, 0, 65504, 0)}, {vec4(1e-30f)}, {vec4(0.76f)}, {vec4(0.8f)}};
+  std::vector<Case> cases = {
+      {vec4(0)},     {vec4(65504)}, {vec4(65504, 0, 0, 0)}, {vec4(0, 0, 65504, 0)}, {vec4(1e-30f)},
+      {vec4(0.76f)}, {vec4(0.8f)}};
   while (cases.size() < 20'000) {
     const float level = std::exp2(uniform(random, -14, 10));
-    cases.push_back({vec4(level * uniform(random, 0, 1), level * uniform(random, 0, 1), level * uniform(random, 0, 1), 0)});
+    cases.push_back(
+        {vec4(level * uniform(random, 0, 1), level * uniform(random, 0, 1), level * uniform(random, 0, 1), 0)});
   }
   struct Map {
     const char* name;
     dvec3 (*exact)(dvec3);
     double bound;
   };
-  for (const Map& map : {Map{"tonemapNone", f64::tonemapNone, 1e-7}, Map{"tonemapNeutral", f64::tonemapNeutral, 1e-6}, Map{"tonemapAces", f64::tonemapAces, 5e-6},
-                         Map{"tonemapAgx", f64::tonemapAgx, 1e-4}}) {
-    const double error = worstError(cases, onGpu(f, cases, std::string("vec4(") + map.name + "(a.rgb), 0.0)"), [&](const Case& c) { return map.exact(dvec3(c[0])); }, one);
+  for (const Map& map : {Map{"tonemapNone", f64::tonemapNone, 1e-7}, Map{"tonemapNeutral", f64::tonemapNeutral, 1e-6},
+                         Map{"tonemapAces", f64::tonemapAces, 5e-6}, Map{"tonemapAgx", f64::tonemapAgx, 1e-4}}) {
+    const double error = worstError(
+        cases, onGpu(f, cases, std::string("vec4(") + map.name + "(a.rgb), 0.0)"),
+        [&](const Case& c) { return map.exact(dvec3(c[0])); }, one);
     WARN(map.name << ": off by at most " << error * 255 << "/255");
     CHECK(error < map.bound);
   }
   std::vector<Case> greys;
   for (int i = 0; i <= 10'000; ++i) greys.push_back({vec4(float(i) / 10'000)});
-  const double error = worstError(greys, onGpu(f, greys, "vec4(srgbFromLinearFast(a.x), srgbFromLinear(a.x), 0.0, 0.0)"),
-                                  [](const Case& c) { return dvec3(f64::srgbFromLinear(double(c[0].x)), f64::srgbFromLinear(double(c[0].x)), 0); }, one);
+  const double error = worstError(
+      greys, onGpu(f, greys, "vec4(srgbFromLinearFast(a.x), srgbFromLinear(a.x), 0.0, 0.0)"),
+      [](const Case& c) { return dvec3(f64::srgbFromLinear(double(c[0].x)), f64::srgbFromLinear(double(c[0].x)), 0); },
+      one);
   WARN("sRGB: off by at most " << error * 255 << "/255");
   CHECK(error < 0.25 / 255 + 1e-5);
 }

@@ -14,7 +14,8 @@ TEST_CASE("the roughness code errs by at most 3.2 % in the lobe's peak") {
   for (int i = 0; i <= 100'000; ++i) {
     const double r = 0.02 + 0.98 * i / 100'000, alpha = f64::alphaFromRoughness(r);
     const double stored = f64::decodeAlpha(std::round(f64::encodeAlpha(alpha) * 255) / 255);
-    const double error = std::abs(f64::D_blinnPhong(1, f64::powerFromAlpha(stored)) / f64::D_blinnPhong(1, f64::powerFromAlpha(alpha)) - 1);
+    const double error = std::abs(
+        f64::D_blinnPhong(1, f64::powerFromAlpha(stored)) / f64::D_blinnPhong(1, f64::powerFromAlpha(alpha)) - 1);
     if (error > worst) worst = error, at = r;
   }
   WARN("roughness code: the peak is off by at most " << worst * 100 << " %, at r " << at);
@@ -46,14 +47,15 @@ TEST_CASE("the albedo code is as fine as sRGB") {
     worstSrgb = std::fmax(worstSrgb, std::abs(f64::linearFromSrgb(std::round(f64::srgbFromLinear(c) * 255) / 255) - c));
     if (c < 0.01 || c > 0.999) continue;
     // Width of one step of 1/255 around c, against sRGB's.
-    const double step = 2 * std::sqrt(c), srgbStep = 2e-6 / (f64::srgbFromLinear(c + 1e-6) - f64::srgbFromLinear(c - 1e-6));
+    const double step = 2 * std::sqrt(c),
+                 srgbStep = 2e-6 / (f64::srgbFromLinear(c + 1e-6) - f64::srgbFromLinear(c - 1e-6));
     ratioDark = std::fmax(ratioDark, step / srgbStep);
     if (c < 0.046) continue;
     ratioLow = std::fmin(ratioLow, step / srgbStep);
     ratioHigh = std::fmax(ratioHigh, step / srgbStep);
   }
-  WARN("albedo code: error at most " << worst << " (sRGB " << worstSrgb << "); steps of " << ratioLow << " to " << ratioHigh
-                                     << " of sRGB's from 0.046 up, " << ratioDark << " at 0.01");
+  WARN("albedo code: error at most " << worst << " (sRGB " << worstSrgb << "); steps of " << ratioLow << " to "
+                                     << ratioHigh << " of sRGB's from 0.046 up, " << ratioDark << " at 0.01");
   CHECK(worst <= worstSrgb);
   CHECK(worst <= 1.0 / 255);
   CHECK(ratioLow > 0.86);
@@ -64,7 +66,8 @@ TEST_CASE("the albedo code is as fine as sRGB") {
 TEST_CASE("the shaders' substance is the material library's") {
   double worst = 0;
   for (int i = 0; i <= 1000; ++i)
-    for (const glm::vec3 albedo : {glm::vec3(0), glm::vec3(1), glm::vec3(0.9f, 0.5f, 0.1f), glm::vec3(0.02f, 0.3f, 0.7f)}) {
+    for (const glm::vec3 albedo :
+         {glm::vec3(0), glm::vec3(1), glm::vec3(0.9f, 0.5f, 0.1f), glm::vec3(0.02f, 0.3f, 0.7f)}) {
       const float s = float(i) / 1000;
       const DecodedSubstance library = decodeSubstance(s, albedo);
       const auto difference = [&](const auto& a, const glm::vec3& b) {

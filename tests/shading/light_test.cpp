@@ -48,7 +48,8 @@ TEST_CASE("attenuation in float follows double, and is finite at the light itsel
     const float d2 = 6.25f * float(i) / 10'000;
     const double truth = f64::distanceAttenuation(double(d2), 1 / double(d2), 1 / 39.0625, 0);
     // Relative to the light without its window.
-    worst = std::fmax(worst, std::abs(double(f32::distanceAttenuation(d2, 1 / d2, 1 / 39.0625f, 0)) - truth) * double(d2));
+    worst =
+        std::fmax(worst, std::abs(double(f32::distanceAttenuation(d2, 1 / d2, 1 / 39.0625f, 0)) - truth) * double(d2));
   }
   CHECK(worst < 5e-7);
   const float nearest = 1e-4f;  // BURNISH_GUARD_DISTANCE2

@@ -51,7 +51,8 @@ double albedo(double nov, double p, bool kelemen, int steps) {
   return integrateHemisphere(
       [&](const dvec3& l) {
         const double s2 = 2 + 2 * dot(l, v), noh2 = (l.z + v.z) * (l.z + v.z) / s2, lobe = std::pow(noh2, 0.5 * p);
-        return l.z * (kelemen ? f64::D_blinnPhong(lobe, p) * f64::V_kelemen(1 / s2) : f64::normalizationExact(p) * lobe);
+        return l.z *
+               (kelemen ? f64::D_blinnPhong(lobe, p) * f64::V_kelemen(1 / s2) : f64::normalizationExact(p) * lobe);
       },
       steps);
 }
@@ -70,11 +71,11 @@ TEST_CASE("the lobe in float: the stable form keeps it, n·h loses it") {
   };
   // docs/shading.md, section 4, holds near the normal (here within 26 degrees); toward grazing (within 84 degrees) the
   // rounding of l and v themselves turns h.
-  for (const Row& row : {Row{0.2, 0.00015, 1e-5, 1e-5}, Row{0.1, 0.0028, 1e-5, 1e-4}, Row{0.05, 0.045, 1e-4, 3e-4}, Row{0.02, 0.74, 1e-4, 1.5e-3},
-                         Row{0.01, 1.0, 5e-4, 7e-3}}) {
+  for (const Row& row : {Row{0.2, 0.00015, 1e-5, 1e-5}, Row{0.1, 0.0028, 1e-5, 1e-4}, Row{0.05, 0.045, 1e-4, 3e-4},
+                         Row{0.02, 0.74, 1e-4, 1.5e-3}, Row{0.01, 1.0, 5e-4, 7e-3}}) {
     const LobeErrors e = lobeErrors(row.r, 200'000, 0.9), grazing = lobeErrors(row.r, 200'000, 0.1);
-    WARN("r " << row.r << ": pow " << e.pow << ", exp2 " << e.exp2 << ", stable " << e.stable << "; toward grazing pow " << grazing.pow << ", exp2 "
-              << grazing.exp2 << ", stable " << grazing.stable);
+    WARN("r " << row.r << ": pow " << e.pow << ", exp2 " << e.exp2 << ", stable " << e.stable << "; toward grazing pow "
+              << grazing.pow << ", exp2 " << grazing.exp2 << ", stable " << grazing.stable);
     CHECK(e.stable < row.stable);
     CHECK(grazing.stable < row.stableGrazing);
     CHECK(e.stable < e.exp2 / 3);
@@ -117,7 +118,8 @@ TEST_CASE("ln(1 - x) keeps its relative error where x is tiny and where it is ne
 
 TEST_CASE("Blinn-Phong's distribution integrates to one") {
   for (const double p : {0.0, 1.0, 8.0, 64.0, 1024.0, 8192.0}) {
-    const double sum = integrateHemisphere([&](const dvec3& h) { return f64::D_blinnPhong(std::pow(h.z, p), p) * h.z; }, 1000);
+    const double sum =
+        integrateHemisphere([&](const dvec3& h) { return f64::D_blinnPhong(std::pow(h.z, p), p) * h.z; }, 1000);
     CHECK(sum == Approx(1).epsilon(1e-3));
   }
 }
@@ -126,8 +128,8 @@ TEST_CASE("directional albedo with Kelemen's visibility, F = 1") {
   struct Row {
     double p, nov, value;
   };
-  for (const Row& row : {Row{64, 1, 0.969}, Row{64, 0.5, 0.918}, Row{64, 0.2, 0.817}, Row{64, 0.1, 0.801}, Row{8192, 1, 1.000}, Row{8192, 0.5, 0.999},
-                         Row{8192, 0.2, 0.997}, Row{8192, 0.1, 0.987}}) {
+  for (const Row& row : {Row{64, 1, 0.969}, Row{64, 0.5, 0.918}, Row{64, 0.2, 0.817}, Row{64, 0.1, 0.801},
+                         Row{8192, 1, 1.000}, Row{8192, 0.5, 0.999}, Row{8192, 0.2, 0.997}, Row{8192, 0.1, 0.987}}) {
     const double e = albedo(row.nov, row.p, true, row.p > 1000 ? 1500 : 500);
     CAPTURE(row.p, row.nov, e);
     CHECK(std::abs(e - row.value) < 0.0011);
@@ -175,7 +177,8 @@ TEST_CASE("Schlick's Fresnel against the exact one of dielectrics") {
     const double f0 = std::pow((row.eta - 1) / (row.eta + 1), 2);
     double worst = 0, at = 0;
     for (int i = 0; i < 9000; ++i) {
-      const double c = std::cos(i / 100.0 * kPi / 180), error = std::abs(f64::F_schlick(dvec3(f0), c).x - fresnelDielectric(c, row.eta));
+      const double c = std::cos(i / 100.0 * kPi / 180),
+                   error = std::abs(f64::F_schlick(dvec3(f0), c).x - fresnelDielectric(c, row.eta));
       if (error > worst) worst = error, at = i / 100.0;
     }
     CAPTURE(row.eta);
@@ -199,11 +202,15 @@ TEST_CASE("the default path is reciprocal, and float follows double") {
     for (const int geometry : {0, 1}) {
       const dvec3 dn = glm::normalize(dvec3(n)), dl = glm::normalize(dvec3(l)), dv = glm::normalize(dvec3(v));
       const auto exact = [&](const dvec3& from, const dvec3& to) {
-        return f64::shadeDirection(f64::makeSurface(dn, to, dvec3(albedo), double(substance), double(alpha)), from, geometry, 1) / dot(dn, from);
+        return f64::shadeDirection(f64::makeSurface(dn, to, dvec3(albedo), double(substance), double(alpha)), from,
+                                   geometry, 1) /
+               dot(dn, from);
       };
       const dvec3 there = exact(dl, dv), back = exact(dv, dl);
-      CHECK(glm::length(there - back) <= 1e-6 * glm::length(there));  // logOneMinus has a truncated series in double too
-      const vec3 inFloat = f32::shadeDirection(f32::makeSurface(n, v, albedo, substance, alpha), l, geometry, 1) / dot(n, l);
+      CHECK(glm::length(there - back) <=
+            1e-6 * glm::length(there));  // logOneMinus has a truncated series in double too
+      const vec3 inFloat =
+          f32::shadeDirection(f32::makeSurface(n, v, albedo, substance, alpha), l, geometry, 1) / dot(n, l);
       // Relative to the value with the lobe at its peak, where the rounding of vectors is what counts.
       const double scale = glm::length(there) + f64::D_blinnPhong(1, f64::powerFromAlpha(double(alpha))) * 1e-2;
       worst = std::fmax(worst, glm::length(dvec3(inFloat) - there) / scale);

@@ -83,14 +83,16 @@ TEST_CASE("packed normals in float are those in double but for ties") {
     const glm::vec3 n(randomUnit(random));
     const glm::vec3 f = glm::round(shading::f32::packNormal(n) * 255.0f);
     differing += f != glm::vec3(glm::round(shading::f64::packNormal(dvec3(n)) * 255.0));
-    worst = std::fmax(worst, angleBetween(glm::normalize(dvec3(shading::f32::unpackNormal(f / 255.0f))), glm::normalize(dvec3(n))));
+    worst = std::fmax(
+        worst, angleBetween(glm::normalize(dvec3(shading::f32::unpackNormal(f / 255.0f))), glm::normalize(dvec3(n))));
   }
   CHECK(differing < kCount / 500);
   CHECK(worst * 180 / kPi < 0.0589 * 1.02);
 }
 
 TEST_CASE("vectors that are no normals pack to finite unit vectors") {
-  for (const glm::vec3 n : {glm::vec3(0), glm::vec3(1e-30f, 0, 0), glm::vec3(-1e18f, 1e18f, 1e18f), glm::vec3(0, 0, -1e-38f)}) {
+  for (const glm::vec3 n :
+       {glm::vec3(0), glm::vec3(1e-30f, 0, 0), glm::vec3(-1e18f, 1e18f, 1e18f), glm::vec3(0, 0, -1e-38f)}) {
     const glm::vec3 u = shading::f32::unpackNormal(shading::f32::packNormal(n));
     CHECK(glm::length(u) == Approx(1).margin(1e-6));
   }

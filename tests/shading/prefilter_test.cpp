@@ -1,6 +1,6 @@
 // Light of the surroundings: prefiltered levels, irradiance, the DFG table (docs/shading.md, section 5).
-#include <catch2/catch.hpp>
 #include <algorithm>
+#include <catch2/catch.hpp>
 #include <functional>
 
 #include "prefilter/dfg.h"
@@ -31,7 +31,8 @@ Image latLong(int width, const std::function<dvec3(const dvec3&)>& radiance) {
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       dvec3 sum(0);
-      for (int k = 0; k < 16; ++k) sum += radiance(latLongDirection(x + (k % 4 - 1.5) / 4, y + (k / 4 - 1.5) / 4, width, height));
+      for (int k = 0; k < 16; ++k)
+        sum += radiance(latLongDirection(x + (k % 4 - 1.5) / 4, y + (k / 4 - 1.5) / 4, width, height));
       for (int c = 0; c < 3; ++c) image.f32()[(y * width + x) * 3 + c] = float(sum[c] / 16);
     }
   return image;
@@ -56,7 +57,8 @@ double lobeIntegral(double p) {
 }
 
 vec3 texelDirection(const Cube& cube, int face, int x, int y) {
-  return cubeDirection(face, (float(x) + 0.5f) * 2 / float(cube.size) - 1, (float(y) + 0.5f) * 2 / float(cube.size) - 1);
+  return cubeDirection(face, (float(x) + 0.5f) * 2 / float(cube.size) - 1,
+                       (float(y) + 0.5f) * 2 / float(cube.size) - 1);
 }
 
 }  // namespace
@@ -95,18 +97,21 @@ TEST_CASE("a constant environment stays constant at every level and in the irrad
 
 TEST_CASE("irradiance of a cosine sky against quadrature") {
   const dvec3 axis = glm::normalize(dvec3(0.3, 0.8, -0.5));
-  const EnvironmentLight light = prefilterEnvironment(latLong(256, [&](const dvec3& d) { return dvec3(std::fmax(dot(d, axis), 0.0)); }), 64);
+  const EnvironmentLight light =
+      prefilterEnvironment(latLong(256, [&](const dvec3& d) { return dvec3(std::fmax(dot(d, axis), 0.0)); }), 64);
   std::mt19937_64 random(6);
   double worst = 0;
   for (int i = 0; i < 40; ++i) {
     const dvec3 n = i == 0 ? axis : i == 1 ? -axis : randomUnit(random);
     // Symmetric about the plane of n and the axis; there the axis has these coordinates about n.
     const dvec3 a = viewAt(glm::clamp(dot(n, axis), -1.0, 1.0));
-    const double truth = integrateHemisphere([&](const dvec3& l) { return l.z * std::fmax(dot(l, a), 0.0); }, 200) / kPi;
+    const double truth =
+        integrateHemisphere([&](const dvec3& l) { return l.z * std::fmax(dot(l, a), 0.0); }, 200) / kPi;
     worst = std::fmax(worst, std::abs(double(irradianceAt(light, vec3(n)).x) - truth));
   }
   WARN("cosine sky: SH irradiance off by at most " << worst << " of the zenith's radiance");
-  // Band 4, which L2 leaves out, holds -1/32 · -1/48 of both lobes: 9/4 · 1/36 · 1/36 · ... under one part in a hundred.
+  // Band 4, which L2 leaves out, holds -1/32 · -1/48 of both lobes: 9/4 · 1/36 · 1/36 · ... under one part in a
+  // hundred.
   CHECK(worst < 0.01);
 }
 
@@ -115,13 +120,15 @@ TEST_CASE("a small bright disc shows the lobe's own profile at every level") {
   const dvec3 centre = glm::normalize(dvec3(1.0, 0.2, -0.85));
   constexpr double kRadius = 0.02;
   const int width = 1024;
-  const Image image = latLong(width, [&](const dvec3& d) { return dvec3(angleBetween(d, centre) < kRadius ? 1000 : 0); });
+  const Image image =
+      latLong(width, [&](const dvec3& d) { return dvec3(angleBetween(d, centre) < kRadius ? 1000 : 0); });
   // The disc as the picture holds it.
   std::vector<std::pair<dvec3, double>> disc;
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < width; ++x)
       if (const double value = double(image.f32()[(y * width + x) * 3]); value > 0) {
-        const double polar = kPi / image.height, omega = 2 * kPi / width * (std::cos(polar * y) - std::cos(polar * (y + 1)));
+        const double polar = kPi / image.height,
+                     omega = 2 * kPi / width * (std::cos(polar * y) - std::cos(polar * (y + 1)));
         disc.emplace_back(latLongDirection(x, y, width, image.height), value * omega);
       }
   double flux = 0;
@@ -133,7 +140,8 @@ TEST_CASE("a small bright disc shows the lobe's own profile at every level") {
   REQUIRE(last == 4);
   for (int k = 1; k <= last; ++k) {
     const Cube& cube = light.levels[std::size_t(k)];
-    const double p = f64::powerFromAlpha(f64::alphaFromRoughness(f64::environmentRoughness(k, last))), total = lobeIntegral(p);
+    const double p = f64::powerFromAlpha(f64::alphaFromRoughness(f64::environmentRoughness(k, last))),
+                 total = lobeIntegral(p);
     const double peak = flux / total;
     double worst = 0, worstAnalytic = 0;
     for (int face = 0; face < 6; ++face)
@@ -146,8 +154,9 @@ TEST_CASE("a small bright disc shows the lobe's own profile at every level") {
           worst = std::fmax(worst, std::abs(value - truth) / peak);
           worstAnalytic = std::fmax(worstAnalytic, std::abs(value / peak - lobeWeight(dot(centre, r), p)));
         }
-    WARN("level " << k << " (r " << f64::environmentRoughness(k, last) << ", " << cube.size << "² faces): off by " << worst * 100
-                  << " % of the peak from brute force, " << worstAnalytic * 100 << " % from an analytic light's lobe");
+    WARN("level " << k << " (r " << f64::environmentRoughness(k, last) << ", " << cube.size << "² faces): off by "
+                  << worst * 100 << " % of the peak from brute force, " << worstAnalytic * 100
+                  << " % from an analytic light's lobe");
     CHECK(worst < 0.02);
     CHECK(worstAnalytic < (k == 1 ? 0.08 : 0.025));  // level 1 sees the disc's own width
   }
@@ -183,7 +192,8 @@ TEST_CASE("the DFG table as texture() reads it") {
     const auto table = dfgTable(geometry);
     REQUIRE(table.size() == std::size_t(2 * kDfgSize * kDfgSize));
     const auto texel = [&](int i, int j) {
-      const std::size_t k = 2 * (std::size_t(std::clamp(j, 0, kDfgSize - 1)) * kDfgSize + std::size_t(std::clamp(i, 0, kDfgSize - 1)));
+      const std::size_t k =
+          2 * (std::size_t(std::clamp(j, 0, kDfgSize - 1)) * kDfgSize + std::size_t(std::clamp(i, 0, kDfgSize - 1)));
       return glm::dvec2(table[k], table[k + 1]) / 65535.0;
     };
     // Bilinear, clamped to the edge.
@@ -199,11 +209,14 @@ TEST_CASE("the DFG table as texture() reads it") {
         const double nov = i < 8 ? 0.002 * (i + 1) : (i - 7) / 33.0, r = j == 0 ? 0.02 : j / 16.0;
         const glm::dvec2 read = sample(nov, r), truth = integrateDfg(geometry, nov, r, 256, 128);
         const double error = std::fmax(std::abs(read.x - truth.x), std::abs(read.y - truth.y));
-        if (nov < 1.5 / kDfgSize) worstGrazing = std::fmax(worstGrazing, error);
-        else if (error > worst) worst = error, worstNov = nov, worstRoughness = r;
+        if (nov < 1.5 / kDfgSize)
+          worstGrazing = std::fmax(worstGrazing, error);
+        else if (error > worst)
+          worst = error, worstNov = nov, worstRoughness = r;
       }
-    WARN((geometry == Geometry::Void ? "void" : "Kelemen") << " DFG table: off by at most " << worst << " (n·v " << worstNov << ", r " << worstRoughness << "), "
-                                                            << worstGrazing << " within 1.4 degrees of grazing");
+    WARN((geometry == Geometry::Void ? "void" : "Kelemen")
+         << " DFG table: off by at most " << worst << " (n·v " << worstNov << ", r " << worstRoughness << "), "
+         << worstGrazing << " within 1.4 degrees of grazing");
     CHECK(worst < 5e-3);
     // Kelemen's albedo rises from nothing within the lobe's width of the horizon, which is narrower than a texel there.
     CHECK(worstGrazing < 0.15);

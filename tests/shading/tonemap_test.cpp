@@ -66,7 +66,8 @@ void checkGreys(vec3 (*map)(vec3), float slack) {
 
 /// Saturated and mixed colours over the same range.
 void checkColours(vec3 (*map)(vec3)) {
-  for (const vec3 colour : {vec3(1, 0, 0), vec3(0, 1, 0), vec3(0, 0, 1), vec3(1, 1, 0), vec3(1, 0.5f, 0.1f), vec3(0, 0.001f, 1)})
+  for (const vec3 colour :
+       {vec3(1, 0, 0), vec3(0, 1, 0), vec3(0, 0, 1), vec3(1, 1, 0), vec3(1, 0.5f, 0.1f), vec3(0, 0.001f, 1)})
     for (int i = 0; i <= 400; ++i) {
       const vec3 c = map(colour * (65504 * std::exp2(-32 + 32 * float(i) / 400)));
       for (int k = 0; k < 3; ++k) {
@@ -104,9 +105,7 @@ TEST_CASE("AgX") {
   checkColours(f32::tonemapAgx);
 }
 
-TEST_CASE("no tone map clamps") {
-  CHECK(f64::tonemapNone(dvec3(-1, 0.25, 7)) == dvec3(0, 0.25, 1));
-}
+TEST_CASE("no tone map clamps") { CHECK(f64::tonemapNone(dvec3(-1, 0.25, 7)) == dvec3(0, 0.25, 1)); }
 
 TEST_CASE("the sRGB transfer function, exact and fast") {
   CHECK(f64::srgbFromLinear(0) == 0);
