@@ -135,7 +135,9 @@ Result<void> uploadFrameData(FrameContext& c, float displayExposure) {
   d.eye = vec4(glm::vec3(c.view.eye), 0);
   const Environment& e = c.scene.environment;
   const float scale = std::isfinite(e.scale) ? std::max(e.scale, 0.0f) * c.preExposure : 0;
-  d.background = vec4(e.color * scale, scale);
+  // As the cube's texels are mended (gpu_environment.cpp): a channel that is not finite or negative is black.
+  for (int i = 0; i < 3; ++i) d.background[i] = std::isfinite(e.color[i]) ? std::clamp(e.color[i], 0.0f, 1e30f) * scale : 0.0f;
+  d.background.w = scale;
   if (c.environment) {
     d.environment.x = c.environment->lastLevel;
     for (std::size_t i = 0; i < 9; ++i) d.irradiance[i] = vec4(c.environment->irradiance[i] * scale, 0);
