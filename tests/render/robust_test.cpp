@@ -280,6 +280,11 @@ TEST_CASE("NaN and infinity in materials, textures and surroundings") {
     place(scene, sphere(0.5f, 12, 24), m, translation({1, 0, 1}));
     checked(stage, scene, {96, 64}, kView, 1e300);
 
+    Scene one = goodScene();  // one channel is bad, the others go on
+    one.environment.color = {bad, 2, 2};
+    const dvec3 behind = checked(stage, one, {96, 64}, kView, 1e300).at(0, 0);
+    if (bad != 1e38f) CHECK(behind == dvec3(0, 2, 2));
+
     Scene sky = goodScene();
     sky.environment.color = vec3(bad);
     checked(stage, sky, {96, 64}, kView, 1e300);
