@@ -24,14 +24,16 @@ struct Reader {
   PFNGLGETINTEGERVPROC getIntegerv;
   PFNGLGETINTEGER64VPROC getInteger64v;
   PFNGLGETFLOATVPROC getFloatv;
+  PFNGLGETQUERYIVPROC getQueryiv;
 
   explicit Reader(const ProcAddress& get)
       : getString(function<PFNGLGETSTRINGPROC>(get, "glGetString")),
         getStringi(function<PFNGLGETSTRINGIPROC>(get, "glGetStringi")),
         getIntegerv(function<PFNGLGETINTEGERVPROC>(get, "glGetIntegerv")),
         getInteger64v(function<PFNGLGETINTEGER64VPROC>(get, "glGetInteger64v")),
-        getFloatv(function<PFNGLGETFLOATVPROC>(get, "glGetFloatv")) {}
-  [[nodiscard]] bool complete() const { return getString && getStringi && getIntegerv && getInteger64v && getFloatv; }
+        getFloatv(function<PFNGLGETFLOATVPROC>(get, "glGetFloatv")),
+        getQueryiv(function<PFNGLGETQUERYIVPROC>(get, "glGetQueryiv")) {}
+  [[nodiscard]] bool complete() const { return getString && getStringi && getIntegerv && getInteger64v && getFloatv && getQueryiv; }
   [[nodiscard]] std::string text(GLenum name) const {
     const GLubyte* s = getString(name);
     return s ? reinterpret_cast<const char*>(s) : "";
@@ -77,6 +79,9 @@ void readExtensions(const Reader& gl, Capabilities& caps) {
   caps.parallelCompile = has("GL_KHR_parallel_shader_compile") || has("GL_ARB_parallel_shader_compile");
   caps.drawParameters = core46 || has("GL_ARB_shader_draw_parameters");
   caps.debugOutput = true;  // core since 4.3
+  GLint timestampBits = 0;  // timer queries are core, but a driver may give them no bits
+  gl.getQueryiv(GL_TIMESTAMP, GL_QUERY_COUNTER_BITS, &timestampBits);
+  caps.timerQueries = timestampBits > 0;
   caps.programBinary = gl.integer(GL_NUM_PROGRAM_BINARY_FORMATS) > 0;
 }
 

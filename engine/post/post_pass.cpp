@@ -44,6 +44,12 @@ Result<void> measureExposure(FrameContext& c) {
   return c.drawScreen("exposure");
 }
 
+float readExposure(FrameContext& c) {
+  float value[2] = {};
+  if (const gl::Texture* t = c.targets.texture("exposure")) c.device.gl.GetTextureSubImage(t->id(), 0, 0, 0, 0, 1, 1, 1, GL_RG, GL_FLOAT, sizeof value, value);
+  return value[1];
+}
+
 Result<void> drawTonemap(FrameContext& c, GLuint framebuffer) {
   begin(c, framebuffer);
   bindIfThere(c, "light", UNIT_LIGHT_BUFFER);

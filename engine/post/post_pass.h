@@ -5,6 +5,8 @@
 namespace burnish::post {
 
 Result<void> measureExposure(gpu_scene::FrameContext& context);
+/// EV100 that measureExposure found. Waits for the GPU.
+float readExposure(gpu_scene::FrameContext& context);
 /// Develops the light buffer into `framebuffer` (the target's).
 Result<void> drawTonemap(gpu_scene::FrameContext& context, GLuint framebuffer);
 /// Views of the G-buffer and of non-finite values.

@@ -139,6 +139,7 @@ Result<void> Renderer::Impl::runPass(const PassPlan& pass, FrameContext& c, cons
   if (pass.name == "exposure") return post::measureExposure(c);
   if (pass.name == "nonfinite_count") {
     c.stats.nonfinitePixels += post::countNonfinite(c);
+    if (plan.on("auto_exposure")) c.stats.exposureEv = post::readExposure(c);
     return {};
   }
   if (pass.name == "tonemap") return post::drawTonemap(c, target.framebuffer);

@@ -67,7 +67,7 @@ void RenderReport::addCounts(const burnish::FrameStats& stats, bool nonfiniteCou
   draws_ = stats.draws;
   lights_ = stats.lights;
   lightsInView_ = stats.lightsInView;
-  exposureEv = stats.exposureEv;
+  if (nonfiniteCounted || stats.exposureEv != 0) exposureEv = stats.exposureEv;
 }
 
 void RenderReport::warnAboutCounts() {

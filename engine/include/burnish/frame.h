@@ -41,14 +41,14 @@ struct FrameStats {
   std::uint64_t textureBytes = 0;                       ///< all textures and targets alive
   std::uint64_t nonfinitePixels = 0;                    ///< in the light buffer; only with RenderRequest::countNonfinite
   std::vector<std::string> glErrors;                    ///< debug messages of type error and glGetError's
-  float exposureEv = 0;                                 ///< EV100 that the picture was developed with
+  float exposureEv = 0;                                 ///< EV100 that the picture was developed with; automatic exposure: only with RenderRequest::countNonfinite, else 0
 };
 
 struct RenderRequest {
   Output output = Output::Display;
   DebugView debugView = DebugView::Final;
   TimingMode timing = TimingMode::Off;
-  bool countNonfinite = false;
+  bool countNonfinite = false;  ///< waits for the GPU; with automatic exposure it reads FrameStats::exposureEv too
   std::function<void(const HostDraw&)> hostDraw;  ///< called after lighting, before tone mapping, once per view
 };
 
