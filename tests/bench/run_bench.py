@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """The frame bench: CPU milliseconds of a frame of the common workload, in units of a plain full-screen pass.
 
-For every light count it runs unit_pass, then `burnish render` at full size and at 64x36 (the fixed part), then unit_pass
-again; the unit is the mean of the two. docs/benchmarks.md says how to read the table.
+In rounds, for every light count: unit_pass, `burnish render` at full size, unit_pass, the same at 64x36 (the fixed part), unit_pass; each figure is
+divided by the units around it. docs/benchmarks.md says how to read the table.
 
     run_bench.py [--build DIR] [--scene-dir DIR] [--lights 1,64,256,1024] [--json OUT] [--check]
 """
@@ -11,6 +11,7 @@ import glob
 import json
 import os
 import re
+import statistics
 import subprocess
 import sys
 
@@ -80,33 +81,49 @@ def scenes(args):
     return found
 
 
+def measure_round(args, scene, name, first):
+    """Unit, frame, unit, fixed part, unit: each figure is divided by the mean of the units on either side of it."""
+    one = (lambda: first[0]) if first else (lambda: unit(args.unit)[0])
+    u0 = one()
+    frame = render(args, scene, args.size, name)
+    u1 = one()
+    fixed = render(args, scene, FIXED_SIZE, name + "_fixed")
+    u2 = one()
+    return {"frame": frame, "fixed": fixed, "before": u0, "after": u1, "units": 2 * frame["median"] / (u0 + u1),
+            "fixed_units": 2 * fixed["median"] / (u1 + u2), "noisy": max(u0, u1) > NOISY * min(u0, u1)}
+
+
 def measure(args):
-    """One row for each light count."""
-    rows, first = [], None
-    for count, scene in scenes(args).items():
-        name = os.path.splitext(os.path.basename(scene))[0]
-        if args.unit_once:
-            first = first or unit(args.unit)
-        before, renderer = first or unit(args.unit)
-        frame = render(args, scene, args.size, name)
-        fixed = render(args, scene, FIXED_SIZE, name + "_fixed")
-        after = before if args.unit_once else unit(args.unit)[0]
-        one = (before + after) / 2
-        rows.append({"lights": count, "lights_in_view": frame["lights_in_view"], "cpu_ms": frame["median"], "cpu_ms_p95": frame["p95"], "unit_before_ms": before,
-                     "unit_after_ms": after, "units": frame["median"] / one, "fixed_cpu_ms": fixed["median"], "fixed_units": fixed["median"] / one,
-                     "bar_units": BARS.get(count), "noisy": max(before, after) > NOISY * min(before, after), "renderer": renderer,
-                     "effects": frame["effects"], "warnings": frame["warnings"]})
-        print("%d lights: done" % count, file=sys.stderr)
+    """One row for each light count. A neighbour's load comes in bursts that outlast a frame, so the rounds are short, and the median ratio counts."""
+    renderer = unit(args.unit)[1]
+    first = unit(args.unit) if args.unit_once else None
+    per_count = {count: [] for count in scenes(args)}
+    for turn in range(args.rounds):
+        for count, scene in scenes(args).items():
+            per_count[count].append(measure_round(args, scene, os.path.splitext(os.path.basename(scene))[0], first))
+        print("round %d of %d: done" % (turn + 1, args.rounds), file=sys.stderr)
+    rows = []
+    for count, rounds in per_count.items():
+        quiet = [r for r in rounds if not r["noisy"]] or rounds
+        middle = sorted(quiet, key=lambda r: r["units"])[(len(quiet) - 1) // 2]
+        units = sorted(r["units"] for r in quiet)
+        fixed_units = statistics.median_low(r["fixed_units"] for r in quiet)
+        rows.append({"lights": count, "lights_in_view": middle["frame"]["lights_in_view"], "cpu_ms": middle["frame"]["median"],
+                     "cpu_ms_p95": middle["frame"]["p95"], "unit_before_ms": middle["before"], "unit_after_ms": middle["after"],
+                     "units": middle["units"], "units_range": [units[0], units[-1]], "rounds": len(rounds), "quiet_rounds": len(rounds) - sum(r["noisy"] for r in rounds),
+                     "fixed_cpu_ms": middle["fixed"]["median"], "fixed_units": fixed_units, "bar_units": BARS.get(count),
+                     "noisy": all(r["noisy"] for r in rounds), "renderer": renderer, "effects": middle["frame"]["effects"],
+                     "warnings": middle["frame"]["warnings"]})
     return rows
 
 
 def table(rows):
     """The rows as a Markdown table."""
-    lines = ["| lights | in view | CPU ms per frame: median (p95) | unit before / after, ms | units | bar | fixed part: ms | units |", "|" + "---|" * 8]
+    lines = ["| lights | in view | CPU ms per frame: median (p95) | unit before / after, ms | units: median (range) | quiet rounds | bar | fixed part: ms | units |", "|" + "---|" * 9]
     for r in rows:
-        lines.append("| %d | %s | %.1f (%.1f) | %.2f / %.2f%s | %.2f | %s | %.1f | %.2f |" % (
-            r["lights"], r["lights_in_view"], r["cpu_ms"], r["cpu_ms_p95"], r["unit_before_ms"], r["unit_after_ms"], " noisy" if r["noisy"] else "", r["units"],
-            r["bar_units"] or "-", r["fixed_cpu_ms"], r["fixed_units"]))
+        lines.append("| %d | %s | %.1f (%.1f) | %.2f / %.2f%s | %.2f (%.2f..%.2f) | %d of %d | %s | %.1f | %.2f |" % (
+            r["lights"], r["lights_in_view"], r["cpu_ms"], r["cpu_ms_p95"], r["unit_before_ms"], r["unit_after_ms"], " noisy" if r["noisy"] else "", r["units"], *r["units_range"],
+            r["quiet_rounds"], r["rounds"], r["bar_units"] or "-", r["fixed_cpu_ms"], r["fixed_units"]))
     return "\n".join(lines)
 
 
@@ -142,7 +159,8 @@ def arguments():
     parser.add_argument("--env", help="lat-long picture; default: env.hdr of the scene folder")
     parser.add_argument("--lights", type=count_list, default=[1, 64, 256, 1024], help="light counts, default 1,64,256,1024")
     parser.add_argument("--size", default="1280x720", help="the bars hold for 1280x720, the size of the unit")
-    parser.add_argument("--frames", type=int, default=30, help="measured frames")
+    parser.add_argument("--frames", type=int, default=8, help="measured frames a round")
+    parser.add_argument("--rounds", type=int, default=7, help="rounds; the median ratio of those whose units agree counts")
     parser.add_argument("--unit-once", action="store_true", help="measure the unit once only (quick trials)")
     parser.add_argument("--pictures", help="where pictures and reports go; default: BUILD/bench/pictures")
     parser.add_argument("--json", help="write all figures there")
@@ -166,7 +184,7 @@ def main():
     except BenchError as error:
         print("run_bench: %s" % error, file=sys.stderr)
         return 1
-    print("%s, %d cores, load %.1f; %s; %s, %d frames\n" % (about["processor"], about["cores"], about["load_average"], rows[0]["renderer"], args.size, args.frames))
+    print("%s, %d cores, load %.1f; %s; %s, %d rounds of %d frames\n" % (about["processor"], about["cores"], about["load_average"], rows[0]["renderer"], args.size, args.rounds, args.frames))
     print(table(rows))
     for warning in sorted({text for r in rows for text in r["warnings"]}):
         print("warning: " + warning)
