@@ -119,6 +119,7 @@ Result<void> LightingPass::shadeTiles(FrameContext& c) {
     if (!table) return fail(table.error());
     gl.BindTextureUnit(UNIT_DFG, *table);
     c.environment->cube.bind(UNIT_ENVIRONMENT);
+    gl.Enable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
   }
   lights_.bind(UNIT_LIGHTS);
   entries_.bind(UNIT_LIGHT_LISTS);

@@ -1,6 +1,7 @@
 // Emission into the light buffer: a depth-equal, additive draw of the emissive objects, so that the G-buffer need not widen.
 // Definitions: GENERAL, ALPHA_TEST.
 #include "interface/layout.h"
+#include "interface/radiance.glsl"
 layout(std140, binding = BINDING_FRAME) uniform Frame { FrameData frame; };
 #include "gbuffer/material.glsl"
 
@@ -25,5 +26,5 @@ void main() {
   if (opacity < material.emission.w) discard;
 #endif
   vec3 radiance = (texture(mapEmissive, mapUv(4)).rgb * material.emission.rgb + unlit) * frame.exposure.x;
-  outRadiance = vec4(min(radiance, vec3(frame.exposure.w)), 0.0);
+  outRadiance = vec4(limitRadiance(radiance, frame.exposure.w), 0.0);
 }

@@ -2,6 +2,7 @@
 #include "shading/bridge.h"
 #include "shading/constants.h"
 #include "interface/layout.h"
+#include "interface/radiance.glsl"
 layout(std140, binding = BINDING_FRAME) uniform Frame { FrameData frame; };
 #if SKY_MAP
 layout(binding = UNIT_ENVIRONMENT) uniform sampler2D skyMap;
@@ -22,5 +23,5 @@ void main() {
 #else
   vec3 c = frame.background.rgb;
 #endif
-  outRadiance = vec4(min(c, vec3(frame.exposure.w)), 1.0);
+  outRadiance = vec4(limitRadiance(c, frame.exposure.w), 1.0);
 }

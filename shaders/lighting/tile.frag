@@ -16,6 +16,7 @@
 #include "shading/environment.h"
 #include "interface/layout.h"
 #include "interface/surface.glsl"
+#include "interface/radiance.glsl"
 
 #if ENVIRONMENT
 layout(binding = UNIT_ENVIRONMENT) uniform samplerCube environmentCube;
@@ -95,5 +96,5 @@ void main() {
   sum += surroundings(m, occlusion);
 #endif
   // Nothing was drawn where z is 0: black there, for a background to replace.
-  outRadiance = vec4(z > 0.0 ? min(sum, vec3(ray[2].w)) : vec3(0.0), 1.0);
+  outRadiance = vec4(z > 0.0 ? limitRadiance(sum, ray[2].w) : vec3(0.0), 1.0);
 }
