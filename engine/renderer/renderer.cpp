@@ -42,6 +42,27 @@ float guessedExposure(const scene::LightSet& lights, const gpu_scene::GpuEnviron
   return exposureOf(std::log2(luminance * 8));
 }
 
+/// The GL state of one call: the host's is saved (HostState::Save) and the engine starts from defaults; at the end, on every path, the host finds what it was promised.
+class CallState {
+ public:
+  CallState(const gl::Device& device, HostState promise) : device_(device) {
+    if (promise == HostState::Save)
+      guard_.emplace(device);
+    else
+      gl::setDefaults(device);
+    device.gl.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+  }
+  ~CallState() {
+    if (!guard_) gl::setDefaults(device_);
+  }
+  CallState(const CallState&) = delete;
+  CallState& operator=(const CallState&) = delete;
+
+ private:
+  const gl::Device& device_;
+  std::optional<gl::HostStateGuard> guard_;
+};
+
 }  // namespace
 
 struct Renderer::Impl {
@@ -199,11 +220,7 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const ProcAddress& getProcAdd
   auto device = gl::Device::create(getProcAddress, options.debugOutput);
   if (!device) return fail(device.error());
   m.device = std::move(*device);
-  std::optional<gl::HostStateGuard> guard;
-  if (options.hostState == HostState::Save)
-    guard.emplace(*m.device);
-  else
-    gl::setDefaults(*m.device);
+  const CallState callState(*m.device, options.hostState);
   m.programs = std::make_unique<gl::ProgramCache>(*m.device, gl::ShaderLibrary(options.shaderOverride), options.programCache);
   m.targets = std::make_unique<gpu_scene::TargetPool>(*m.device);
   m.programSet = std::make_unique<gpu_scene::ProgramSet>(*m.device, *m.programs);
@@ -231,12 +248,7 @@ Result<int> Renderer::warmUp(const FramePlan& plan) {
 Result<FrameStats> Renderer::render(const Scene& scene, std::span<const View> views, const Target& target, const Quality& quality, const RenderRequest& request) {
   Impl& m = *impl_;
   if (auto good = m.checkRequest(target, views); !good) return fail(good.error());
-  std::optional<gl::HostStateGuard> guard;
-  if (m.options.hostState == HostState::Save)
-    guard.emplace(*m.device);
-  else
-    gl::setDefaults(*m.device);
-  m.device->gl.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+  const CallState callState(*m.device, m.options.hostState);
   m.plan = makePlan(scene, views, quality, m.device->caps, m.planOptions(target, request));
   FrameStats stats;
   Result<void> done = m.programSet->prepare(m.plan);
@@ -247,7 +259,6 @@ Result<FrameStats> Renderer::render(const Scene& scene, std::span<const View> vi
   m.timers->beginFrame(timingOf(request.timing));
   for (std::size_t i = 0; i < views.size() && done; ++i) done = m.renderView(state, scene, views[i], target, quality, request, i == 0, stats);
   m.timers->endFrame();
-  if (m.options.hostState != HostState::Save) gl::setDefaults(*m.device);
   if (m.options.debugOutput) stats.glErrors = m.device->takeErrors();
   m.logNewWarnings();
   if (!done) return fail(done.error());
@@ -268,12 +279,7 @@ Result<Id<Instance>> Renderer::pick(const Scene& scene, const View& view, glm::i
   const scene::ViewFrame whole = scene::frameOf(view, targetSize);
   const glm::ivec2 local = pixel - glm::ivec2(whole.viewport.x, whole.viewport.y);
   if (local.x < 0 || local.y < 0 || local.x >= whole.viewport.z || local.y >= whole.viewport.w) return Id<Instance>{};
-  std::optional<gl::HostStateGuard> guard;
-  if (m.options.hostState == HostState::Save)
-    guard.emplace(*m.device);
-  else
-    gl::setDefaults(*m.device);
-  m.device->gl.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+  const CallState callState(*m.device, m.options.hostState);
   // A frame of one pixel whose only pass draws ids.
   FramePlan plan;
   plan.targets = {{"pick", "R32UI", 1, 1, 4}, {"pick_depth", "DEPTH_COMPONENT32F", 1, 1, 4}};
@@ -304,7 +310,6 @@ Result<Id<Instance>> Renderer::pick(const Scene& scene, const View& view, glm::i
   if (auto done = gbuffer::drawPick(c); !done) return fail(done.error());
   GLuint found = 0;
   m.device->gl.GetTextureSubImage(targets.texture("pick")->id(), 0, 0, 0, 0, 1, 1, 1, GL_RED_INTEGER, GL_UNSIGNED_INT, sizeof found, &found);
-  if (m.options.hostState != HostState::Save) gl::setDefaults(*m.device);
   return found == 0 ? Id<Instance>{} : scene.instances.at(found - 1);
 }
 
