@@ -159,7 +159,7 @@ void TileCuller::buildLists(std::span<const scene::LocalLight> lights) {
     TileGroup g{bucket, int(lists_.tiles.size()), 0};
     for (std::size_t i = 0; i < tiles; ++i) {
       if (slices_[i] == 0) continue;
-      const int own = spots_[i] ? plan::kLoop : bucketOf(counts_[i]);
+      const int own = spots_[i] ? plan::kLoopSpots : bucketOf(counts_[i]);
       if (own != bucket) continue;
       const std::size_t first = lists_.entries.size();
       for (std::uint32_t k = 0; k < counts_[i]; ++k) {
@@ -175,6 +175,7 @@ void TileCuller::buildLists(std::span<const scene::LocalLight> lights) {
   };
   for (int bucket : plan::kTileBuckets) addGroup(bucket);
   addGroup(plan::kLoop);
+  addGroup(plan::kLoopSpots);
   lists_.lightsInView = int(std::count(seen.begin(), seen.end(), 1));
   if (lists_.entries.empty()) lists_.entries.push_back(0);
 }

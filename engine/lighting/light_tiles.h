@@ -22,7 +22,7 @@ void reduceDepth(const float* depth, int stride, int width, int height, glm::dve
 
 /// One tile as the vertex shader reads it: x, y, first entry in the lists, number of entries (padding included).
 using TileVertex = glm::ivec4;
-/// Tiles that are shaded by one program: lists of `bucket` lights (plan::kTileBuckets), or plan::kLoop.
+/// Tiles that are shaded by one program: lists of `bucket` lights (plan::kTileBuckets), plan::kLoop or plan::kLoopSpots.
 struct TileGroup {
   int bucket = 0;
   int first = 0, count = 0;  ///< in tiles

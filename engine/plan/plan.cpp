@@ -17,6 +17,7 @@ struct Needs {
   std::string geometry, occlusion, alphaTest, emissive;
   std::string directional, local, environment, background;
   int directionalLights = 0, localLights = 0;
+  bool spots = false;
   std::set<plan::GeometryVariant> variants, emissiveVariants;
 };
 
@@ -55,6 +56,7 @@ void needsOfLights(const Scene& scene, Needs& needs) {
       call(needs.directional, "light", light.name, "");
     } else {
       ++needs.localLights;
+      needs.spots |= light.kind == LightKind::Spot;
       call(needs.local, "light", light.name, "");
     }
   });
@@ -207,6 +209,7 @@ void Builder::addLighting() {
       if (bucket >= needs_.localLights) break;
     }
     if (local) pass.programs.push_back(program(plan::lightingProgram(plan::kLoop, quality_, directional, environment_, occlusion_, orthographic)));
+    if (needs_.spots) pass.programs.push_back(program(plan::lightingProgram(plan::kLoopSpots, quality_, directional, environment_, occlusion_, orthographic)));
   }
   plan_.passes.push_back(std::move(pass));
 }

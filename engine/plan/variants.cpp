@@ -41,7 +41,7 @@ ProgramPlan geometryProgram(GeometryPass pass, GeometryVariant variant, bool occ
 
 ProgramPlan lightingProgram(int bucket, const Quality& quality, int directional, bool environment, bool occlusion, bool orthographic) {
   ProgramPlan p;
-  p.name = bucket == kLoop ? "lighting/loop" : fmt::format("lighting/tile{}", bucket);
+  p.name = bucket == kLoop ? "lighting/loop" : bucket == kLoopSpots ? "lighting/loop_spots" : fmt::format("lighting/tile{}", bucket);
   p.vertex = "lighting/tile.vert";
   p.fragment = "lighting/tile.frag";
   p.defines = {define("DIRECTIONAL", directional),

@@ -24,7 +24,8 @@ ProgramPlan geometryProgram(GeometryPass pass, GeometryVariant variant, bool occ
 
 /// Sizes of the unrolled lighting programs (10 lights, rays and irradiance fill 30 of 32 varyings): a tile's list is padded to the next one; longer lists are looped over.
 inline constexpr int kTileBuckets[] = {0, 1, 2, 3, 4, 6, 8, 10};
-inline constexpr int kLoop = -1;  ///< the program that loops: long lists and spots
+inline constexpr int kLoop = -1;       ///< the program that loops over long lists of point lights
+inline constexpr int kLoopSpots = -2;  ///< the program that loops over lists with spots among them
 /// `directional` lights, `environment`: the surroundings light the scene.
 ProgramPlan lightingProgram(int bucket, const Quality& quality, int directional, bool environment, bool occlusion, bool orthographic);
 

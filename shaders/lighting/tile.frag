@@ -81,10 +81,13 @@ void main() {
   for (int i = 0; i < lightRange.y; ++i) {
     int light = int(texelFetch(lightLists, lightRange.x + i).x) * LIGHT_TEXELS;
     vec4 place = texelFetch(lights, light);
+    vec3 one = punctual(m, p, place, texelFetch(lights, light + 1));
+#if TILE_LIGHTS == -2
     vec4 axis = texelFetch(lights, light + 2);
     vec3 toPoint = normalize(p - place.xyz + vec3(1e-20));
-    float spot = spotAttenuation(dot(axis.xyz, toPoint), axis.w, texelFetch(lights, light + 3).x);
-    sum += punctual(m, p, place, texelFetch(lights, light + 1)) * spot;
+    one *= spotAttenuation(dot(axis.xyz, toPoint), axis.w, texelFetch(lights, light + 3).x);
+#endif
+    sum += one;
   }
 #endif
 #if ENVIRONMENT

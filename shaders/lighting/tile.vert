@@ -1,6 +1,6 @@
 // One point a tile of 16 x 16 pixels; the tile's lights travel to its fragments in flat varyings.
 // So do the pixel rays and the coefficients of irradiance: a software renderer reads a flat varying for less than a uniform (27 of them cost it 7 ms at 1280x720).
-// Definitions: ENVIRONMENT, TILE_LIGHTS (lights of each tile of this group; 0: none; -1: any number, looped over in the fragment shader).
+// Definitions: ENVIRONMENT, TILE_LIGHTS (lights of each tile of this group; 0: none; -1: any number, looped over in the fragment shader; -2: with spots among them).
 #include "interface/layout.h"
 layout(std140, binding = BINDING_FRAME) uniform Frame { FrameData frame; };
 layout(binding = UNIT_LIGHTS) uniform samplerBuffer lights;
