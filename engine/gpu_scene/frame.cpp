@@ -157,6 +157,10 @@ Result<void> uploadDraws(FrameContext& c) {
   for (std::size_t i = 0; i < c.visible.size(); ++i) {
     const scene::VisibleInstance& v = c.visible[i];
     DrawData d{};
+    glm::dmat4 model(1);
+    for (int r = 0; r < 3; ++r)
+      for (int k = 0; k < 4; ++k) model[k][r] = double(v.model[r][k]);
+    d.clip = glm::mat4(c.view.viewProjection * model);
     for (int r = 0; r < 3; ++r) {
       d.model[r] = v.model[r];
       d.normal[r] = vec4(v.normal[r], 0);

@@ -1,8 +1,7 @@
-// Geometry into the G-buffer, the emissive pass and the pick pass: object space to camera-relative world.
+// Geometry into the G-buffer, the emissive pass and the pick pass: object space to clip space, directions to camera-relative world.
 // Definitions: GENERAL 1 = second uv set, uv transforms, vertex colour.
 #include "interface/layout.h"
 
-layout(std140, binding = BINDING_FRAME) uniform Frame { FrameData frame; };
 layout(std140, binding = BINDING_DRAW) uniform Draw { DrawData draw; };
 
 layout(location = ATTRIBUTE_POSITION) in vec3 position;
@@ -27,8 +26,7 @@ vec3 unit(vec3 v) { return v * inversesqrt(max(dot(v, v), 1e-30)); }
 
 void main() {
   vec4 p = vec4(position, 1.0);
-  vec3 relative = vec3(dot(draw.model[0], p), dot(draw.model[1], p), dot(draw.model[2], p));
-  gl_Position = frame.viewProjection * vec4(relative, 1.0);
+  gl_Position = draw.clip * p;
   // Unit length at the vertices, interpolated as they are: the frame that normal maps are baked for (Mikkelsen 2008, section 4).
   worldNormal = unit(vec3(dot(draw.normal[0].xyz, normal.xyz), dot(draw.normal[1].xyz, normal.xyz), dot(draw.normal[2].xyz, normal.xyz)));
   worldTangent = vec4(unit(vec3(dot(draw.model[0].xyz, tangent.xyz), dot(draw.model[1].xyz, tangent.xyz), dot(draw.model[2].xyz, tangent.xyz))), tangent.w);
