@@ -52,7 +52,7 @@ struct FrameData {
 
 struct DrawData {
   mat4 clip;         // object to clip space: one product a vertex
-  vec4 model[3];    // rows: object to camera-relative world
+  vec4 model[3];    // rows: object to camera-relative world; tangents go through it
   vec4 normal[3];   // rows of the cofactor matrix times the sign of the determinant; xyz
   ivec4 ids;        // x instance index + 1, y 1 when the mesh has vertex colours
 };
