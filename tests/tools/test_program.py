@@ -207,8 +207,11 @@ class Inspect(Program):
     def test_substance(self):
         gold = self.good("inspect", "--substance", "Gold").stdout
         self.assertRegex(gold, r"F0: [\d.]+,[\d.]+,[\d.]+")
+        self.assertRegex(gold, r"eta: 0\.358,0\.496,1\.468 .*\nk: [\d.]+,2\.255,1\.772 ")
         self.assertIn("code: 1.0000", gold)
-        self.assertIn("IOR: 1.33", self.good("inspect", "--substance", "water").stdout)
+        water = self.good("inspect", "--substance", "water").stdout
+        self.assertIn("IOR: 1.33", water)
+        self.assertNotIn("eta:", water)
         self.assertNotIn("\x1b", gold)
         self.bad(1, "inspect", "--substance", "golt", says=("did you mean 'gold'", "water"))
 

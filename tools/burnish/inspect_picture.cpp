@@ -88,7 +88,12 @@ void printSubstance(const burnish::Substance& substance) {
   const glm::vec3 f0 = substance.f0;
   fmt::print("{}: {}\n", substance.name, substance.conductor ? "conductor" : "dielectric");
   fmt::print("F0: {:.4f},{:.4f},{:.4f} (linear Rec.709)\n", f0.x, f0.y, f0.z);
-  if (!substance.conductor) fmt::print("IOR: {:.4f} at 589 nm\n", substance.ior);
+  if (substance.conductor) {
+    fmt::print("eta: {:.3f},{:.3f},{:.3f} (effective index of refraction of red, green, blue)\n", substance.eta.x, substance.eta.y, substance.eta.z);
+    fmt::print("k: {:.3f},{:.3f},{:.3f} (extinction, from eta and F0)\n", substance.k.x, substance.k.y, substance.k.z);
+  } else {
+    fmt::print("IOR: {:.4f} at 589 nm\n", substance.ior);
+  }
   const float code = substance.conductor ? burnish::encodeMetalness(1) : burnish::encodeDielectric(f0.x);
   const glm::vec3 decoded = burnish::decodeSubstance(code, f0).f0;
   fmt::print("code: {:.4f} ({} of 255), which decodes to F0 {:.4f},{:.4f},{:.4f}\n", code, std::lround(code * 255), decoded.x, decoded.y, decoded.z);

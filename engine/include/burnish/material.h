@@ -26,6 +26,8 @@ struct Substance {
   bool conductor = false;
   float ior = 0;          ///< dielectrics: index of refraction at 589 nm; 0 for conductors
   glm::vec3 f0{0};        ///< conductors: albedo of map A; dielectrics: grey ((ior-1)/(ior+1))^2
+  glm::vec3 eta{0};       ///< conductors: effective index of refraction of red, green and blue for the exact conductor Fresnel equation; 0 for dielectrics
+  glm::vec3 k{0};         ///< conductors: extinction, from ((eta-1)^2 + k^2)/((eta+1)^2 + k^2) = f0 (held at 0.999); 0 for dielectrics
   std::string_view source;  ///< where the number comes from
 };
 
