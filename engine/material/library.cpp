@@ -17,10 +17,14 @@
 // comes without n and k: its eta is from those of another author, whose F0 is within 0.0063.
 //
 // tests/unit/material_conductors_test.cpp does the integrals and the fit again.
+#include "material/library.h"
+
 #include <burnish/material.h>
 
 #include <algorithm>
 #include <array>
+#include <numeric>
+#include <vector>
 
 namespace burnish {
 namespace {
@@ -131,7 +135,36 @@ bool same(std::string_view a, std::string_view b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) { return fold(x) == fold(y); });
 }
 
+// Levenshtein distance of folded names, one row at a time.
+std::size_t distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t(0));
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t change = diagonal + (fold(a[i - 1]) == fold(b[j - 1]) ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, change});
+    }
+  }
+  return row[b.size()];
+}
+
 }  // namespace
+
+std::string_view material::nearestSubstance(std::string_view name) {
+  constexpr std::size_t kLongest = 40;
+  if (name.size() > kLongest) return {};
+  std::string_view best;
+  std::size_t least = std::max<std::size_t>(2, name.size() / 3) + 1;
+  const auto consider = [&](std::string_view known) {
+    if (const std::size_t d = distance(name, known); d < least) least = d, best = known;
+  };
+  for (const Substance& s : kSubstances) consider(s.name);
+  for (const Alias& alias : kAliases) consider(alias.name);
+  return best;
+}
 
 std::span<const Substance> substances() { return kSubstances; }
 

@@ -5,6 +5,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "material/library.h"
+
 using namespace burnish;
 
 TEST_CASE("Substances are sorted, sourced and plausible", "[material]") {
@@ -39,4 +41,13 @@ TEST_CASE("Substances are found whatever the spelling", "[material]") {
   CHECK(findSubstance("water")->ior == Approx(1.333f));
   CHECK(findSubstance("ruby")->ior == Approx(1.77f));
   CHECK(findSubstance("diamond")->ior == Approx(2.417f));
+}
+
+TEST_CASE("The nearest substance of a misspelt name", "[material]") {
+  CHECK(material::nearestSubstance("golt") == "gold");
+  CHECK(material::nearestSubstance("GOLD_") == "gold");
+  CHECK(material::nearestSubstance("stainles-steel") == "stainless steel");
+  CHECK(material::nearestSubstance("aluminim") == "aluminium");
+  CHECK(material::nearestSubstance("unobtainium").empty());
+  CHECK(material::nearestSubstance(std::string(1000000, 'g')).empty());
 }
