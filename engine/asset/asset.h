@@ -2,6 +2,7 @@
 // Every index in it is valid (or -1 where it is optional), every number finite, every hierarchy a tree: the validator saw to it.
 #pragma once
 #include <burnish/image.h>
+#include <burnish/material.h>
 
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -47,6 +48,9 @@ struct Material {
   float specular = 1;                     ///< KHR_materials_specular
   glm::vec3 specularColor{1};
   TextureRef specularTexture, specularColorTexture;
+  float anisotropy = 0;                   ///< KHR_materials_anisotropy: strength, 0..1
+  float anisotropyRotation = 0;           ///< radians, counter-clockwise from the tangent
+  const Substance* substance = nullptr;   ///< extras.burnish.substance: a row of the library; replaces metalness, IOR and, for conductors without a texture, base colour
   bool specularGlossiness = false;        ///< KHR_materials_pbrSpecularGlossiness: the next five fields replace metal and roughness
   glm::vec4 diffuse{1};
   glm::vec3 specularF0{1};

@@ -136,6 +136,16 @@ class Check {
     const At here(parent, "extensions", *all);
     return withObject(here, name, f);
   }
+  /// f(At) for `extras.burnish` of an object. Extras are free-form: whatever is not ours is no fault.
+  template <class F>
+  void withOwnExtras(const At& parent, F&& f) {
+    const auto extras = parent->find("extras");
+    if (!ok() || extras == parent->end() || !extras->is_object()) return;
+    const auto ours = extras->find("burnish");
+    if (ours == extras->end() || !ours->is_object()) return;
+    const At here(parent, "extras", *extras);
+    f(At(here, "burnish", *ours));
+  }
   /// Warns of members of an object that the specification does not list (`name`, `extras` and `extensions` are always
   /// known).
   void known(const At& object, std::initializer_list<std::string_view> names);

@@ -15,6 +15,7 @@ constexpr std::string_view kSupported[] = {"KHR_texture_transform",
                                            "KHR_materials_specular",
                                            "KHR_materials_emissive_strength",
                                            "KHR_materials_unlit",
+                                           "KHR_materials_anisotropy",
                                            "KHR_materials_pbrSpecularGlossiness",
                                            "KHR_mesh_quantization"};
 
@@ -123,12 +124,9 @@ void parseScenes(const At& root, Check& check, Document& doc) {
     check.known(at, {"nodes"});
     if (const std::string* name = check.string(at, "name")) scene.name = *name;
     scene.nodes = check.references(at, "nodes", Table::Nodes);
-    const auto extras = at->find("extras");  // free-form: whatever is not ours is not a fault
-    if (extras == at->end() || !extras->is_object()) return;
-    const auto ours = extras->find("burnish");
-    if (ours == extras->end() || !ours->is_object()) return;
-    const At here(at, "extras", *extras), burnish(here, "burnish", *ours);
-    if (const std::string* file = check.string(burnish, "environment")) scene.environment = *file;
+    check.withOwnExtras(at, [&](const At& ours) {
+      if (const std::string* file = check.string(ours, "environment")) scene.environment = *file;
+    });
   });
   doc.scene = check.reference(root, "scene", Table::Scenes);
   if (doc.scene < 0 && !doc.scenes.empty()) doc.scene = 0;

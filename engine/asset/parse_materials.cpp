@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "asset/document.h"
+#include "material/library.h"
 
 namespace burnish::asset {
 namespace {
@@ -137,6 +138,37 @@ void parseMaterialExtensions(const At& at, Check& check, Material& m) {
     m.baseColorTexture =
         m.metallicRoughnessTexture = {};  // the fallback for readers without the extension: not worth decoding
   });
+  check.withExtension(at, "KHR_materials_anisotropy", [&](const At& e) {
+    check.known(e, {"anisotropyStrength", "anisotropyRotation", "anisotropyTexture"});
+    m.anisotropy = float(check.number(e, "anisotropyStrength", 0, kUnit));
+    m.anisotropyRotation = float(check.number(e, "anisotropyRotation", 0));
+    if (parseTextureRef(e, "anisotropyTexture", check))
+      check.warn(e.path() + "/anisotropyTexture",
+                 "textures of anisotropy are not supported: strength and rotation are those of the whole material");
+  });
+}
+
+/// `extras.burnish.substance`, a name of the library. A fault in it is a warning, for extras are free-form.
+void parseSubstance(const At& at, Check& check, Material& m) {
+  check.withOwnExtras(at, [&](const At& ours) {
+    const auto name = ours->find("substance");
+    if (name == ours->end()) return;
+    const std::string path = At(ours, "substance", *name).path();
+    if (!name->is_string())
+      return check.warn(path,
+                        fmt::format("{} where the name of a substance is expected: it is left out", name->type_name()));
+    const std::string& text = name->get_ref<const std::string&>();
+    const Substance* found = findSubstance(text);
+    const std::string_view near = found ? std::string_view() : material::nearestSubstance(text);
+    if (!found)
+      check.warn(path, fmt::format("unknown substance '{}' is left out{}", text.substr(0, 40),
+                                   near.empty() ? "" : fmt::format(" (did you mean '{}'?)", near)));
+    else if (m.unlit || m.specularGlossiness)
+      check.warn(path, fmt::format("the substance is left out: {} leaves nothing for it to say",
+                                   m.unlit ? "KHR_materials_unlit" : "KHR_materials_pbrSpecularGlossiness"));
+    else
+      m.substance = found;
+  });
 }
 
 void parseMaterial(const At& at, Check& check, Document& doc) {
@@ -159,6 +191,7 @@ void parseMaterial(const At& at, Check& check, Document& doc) {
                  fmt::format("unknown alpha mode '{}' is read as OPAQUE", mode->substr(0, 40)));
   }
   parseMaterialExtensions(at, check, m);
+  parseSubstance(at, check, m);
 }
 
 }  // namespace

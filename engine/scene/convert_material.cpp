@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
 #include "material/pixels.h"
 
@@ -34,8 +35,11 @@ MaterialConverter::Converted MaterialConverter::convert(int index, bool vertexAl
   mapC(in, out, pictures_.slot(in.specularGlossiness && !in.unlit ? in.diffuseTexture : in.baseColorTexture),
        vertexAlpha);
   emission(in, out);
+  anisotropy(in, out);
   const Slot normal = normalSlot(in, out);
-  return {scene_.materials.add(std::move(out)), normal ? std::optional<UvMapping>(normal.mapping) : std::nullopt};
+  std::optional<UvMapping> tangents;
+  if (normal || out.anisotropy > 0) tangents = normal ? normal.mapping : UvMapping{};
+  return {scene_.materials.add(std::move(out)), tangents, bool(normal)};
 }
 
 /// Unlit surfaces have no use for a normal map; neither has one whose scale is 0.
@@ -44,12 +48,18 @@ Slot MaterialConverter::normalSlot(const asset::Material& in, const Material& ou
 }
 
 void MaterialConverter::metalRough(const asset::Material& in, Material& out) {
+  const Substance* named = out.unlit ? nullptr : in.substance;
   out.albedo = checked(glm::vec3(in.baseColor), 1, "baseColorFactor");
-  const float metallic = checked(in.metallic, 0, 1, 1, "metallicFactor"),
+  const float metallic = named ? float(named->conductor) : checked(in.metallic, 0, 1, 1, "metallicFactor"),
               roughness = checked(in.roughness, 0, 1, 1, "roughnessFactor");
   const Slot base = pictures_.slot(in.baseColorTexture), normal = normalSlot(in, out);
   const Slot both = out.unlit ? Slot{} : pictures_.slot(in.metallicRoughnessTexture);
-  const std::optional<float> metalConstant = metallic == 0 ? 0.0f : constantOf(pictures_, both, 2);
+  if (named && named->conductor) {
+    if (!base) out.albedo = named->f0;
+    out.conductorEta = named->eta;
+    out.conductorK = named->k;
+  }
+  const std::optional<float> metalConstant = named || metallic == 0 ? metallic : constantOf(pictures_, both, 2);
   const std::optional<float> roughConstant = roughness == 0 ? 0.0f : constantOf(pictures_, both, 1);
   if ((!metalConstant && base && !base.compatible(both)) || (!roughConstant && normal && !normal.compatible(both))) {
     keepApart(in, out, base, normal, both);
@@ -73,11 +83,17 @@ void MaterialConverter::keepApart(const asset::Material& in, Material& out, cons
                   pictures_.name(metalRough)));
   mapA(in, out, base, Slot{}, 0.0f);
   mapB(out, normal, in.normalTexture.strength, Slot{}, 1, false,
-       0);  // alpha 0: its mips hold the normals' spread alone
-  out.metalRoughMap =
-      shared(fmt::format("MR {} {}", metalRough.picture, keyOf(metalRough.sampler)), pictures_.name(metalRough),
-             MapKind::MetalRough, metalRough.sampler, [&](ConversionError&) { return pictures_.rgba(metalRough); })
-          .texture;
+       0);                          // alpha 0: its mips hold the normals' spread alone
+  const bool named = in.substance;  // the substance decides the metalness, not the picture
+  out.metalRoughMap = shared(fmt::format("MR {} {} {}", metalRough.picture, named, keyOf(metalRough.sampler)),
+                             pictures_.name(metalRough), MapKind::MetalRough, metalRough.sampler,
+                             [&](ConversionError&) {
+                               Image image = pictures_.rgba(metalRough);
+                               if (named)
+                                 for (std::size_t i = 0; i < image.pixelCount(); ++i) image.u8()[4 * i + 2] = 255;
+                               return image;
+                             })
+                          .texture;
   out.uvMetalRough = metalRough.mapping;
 }
 
@@ -213,6 +229,14 @@ void MaterialConverter::emission(const asset::Material& in, Material& out) {
                            MapKind::Emissive, slot.sampler, [&](ConversionError&) { return pictures_.rgba(slot); })
                         .texture;
   out.uvEmissive = slot.mapping;
+}
+
+void MaterialConverter::anisotropy(const asset::Material& in, Material& out) {
+  constexpr float kMost = std::numeric_limits<float>::max();
+  out.anisotropy = out.unlit ? 0 : checked(in.anisotropy, 0, 1, 0, "anisotropyStrength");
+  if (out.anisotropy == 0) return;
+  out.anisotropyRotation = checked(in.anisotropyRotation, -kMost, kMost, 0, "anisotropyRotation");
+  warn("anisotropy is drawn by the forward reference path only: the deferred path draws it isotropic");
 }
 
 const MaterialConverter::Shared& MaterialConverter::shared(std::string key, std::string name, MapKind kind,

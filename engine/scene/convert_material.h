@@ -23,8 +23,9 @@ class MaterialConverter {
 
   struct Converted {
     Id<Material> id;
-    std::optional<UvMapping>
-        normalMap;  ///< how the normal map is read; empty without one: meshes then need no tangents
+    /// What tangents follow: the normal map's mapping, or uv set 0 for anisotropy without one; empty: meshes need none.
+    std::optional<UvMapping> tangents;
+    bool normalMap = false;  ///< a normal map is what needs them
   };
   /// Converts a material (-1: glTF's default) and adds it. `vertexAlpha`: some mesh with this material has vertex
   /// colours with alpha below 1.
@@ -48,6 +49,7 @@ class MaterialConverter {
             float factor);
   void mapC(const asset::Material& in, Material& out, const Slot& base, bool vertexAlpha);
   void emission(const asset::Material& in, Material& out);
+  void anisotropy(const asset::Material& in, Material& out);
   Slot normalSlot(const asset::Material& in, const Material& out) const;
 
   // convert_specular.cpp

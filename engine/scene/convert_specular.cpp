@@ -11,7 +11,9 @@ namespace burnish::scene {
 // KHR_materials_specular: dielectric F0 = min(((ior - 1) / (ior + 1))² · specularColor, 1) · specular. An ior of 0
 // means F0 = 1 before the colour.
 MaterialConverter::Dielectric MaterialConverter::dielectricOf(const asset::Material& in) {
-  const float ior = in.ior == 0 ? 0 : checked(in.ior, 1, 100, 1.5f, "ior");
+  const float ior = in.substance && !in.substance->conductor ? in.substance->ior
+                    : in.ior == 0                            ? 0
+                                                             : checked(in.ior, 1, 100, 1.5f, "ior");
   const glm::vec3 color = checked(in.specularColor, 1e6f, "specularColorFactor");
   const float strength = checked(in.specular, 0, 1, 1, "specularFactor");
   return {glm::min(f0FromIor(ior) * color, glm::vec3(1)) * strength, pictures_.slot(in.specularTexture),

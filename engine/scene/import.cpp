@@ -83,11 +83,14 @@ class Importer {
     if (!good)
       return fail(fmt::format("{}: /meshes/{}/primitives/{}", asset_.name, m, p), good.error().what,
                   good.error().remedy);
-    if (material.normalMap && good->tangents.empty() && !good->indices.empty()) {
-      if ((material.normalMap->set == 1 ? good->uv1 : good->uv0).empty())
+    if (material.tangents && good->tangents.empty() && !good->indices.empty()) {
+      if ((material.tangents->set == 1 ? good->uv1 : good->uv0).empty())
         report_.warn(fmt::format("mesh \"{}\"", good->name),
-                     "its material has a normal map, but it has no texture coordinates for it");
-      makeTangents(*good, *material.normalMap);
+                     material.normalMap
+                         ? "its material has a normal map, but it has no texture coordinates for it"
+                         : "its material is anisotropic, but it has neither tangents nor texture coordinates: the "
+                           "direction is arbitrary");
+      makeTangents(*good, *material.tangents);
     }
     if (!good->indices.empty()) meshes_[m].push_back({scene_.meshes.add(std::move(*good)), material.id});
     return {};

@@ -83,6 +83,88 @@ TEST_CASE("materials and their extensions", "[gltf]") {
         std::string::npos);
 }
 
+TEST_CASE("anisotropy is read, its texture is left out", "[gltf]") {
+  box().put("a.png", kPng);
+  Json file = {{"extensionsUsed", {"KHR_materials_anisotropy"}},
+               {"extensionsRequired", {"KHR_materials_anisotropy"}},
+               {"images", {{{"uri", "a.png"}}}},
+               {"textures", {{{"source", 0}}}},
+               {"materials", Json::array()}};
+  Json brushed = {{"anisotropyStrength", 0.5}, {"anisotropyRotation", -1.25}, {"anisotropyTexture", {{"index", 0}}}};
+  const auto with = [&](const Json& extension) {
+    file["materials"] = {{{"extensions", {{"KHR_materials_anisotropy", extension}}}}, {{"name", "plain"}}};
+    return readJson(file);
+  };
+  const Reading r = with(brushed);
+  INFO(r.message());
+  REQUIRE(r.asset);
+  CHECK((r.asset->materials[0].anisotropy == 0.5f && r.asset->materials[0].anisotropyRotation == -1.25f));
+  CHECK((r.asset->materials[1].anisotropy == 0 && r.asset->materials[1].anisotropyRotation == 0));
+  CHECK(r.warned("/materials/0/extensions/KHR_materials_anisotropy/anisotropyTexture: textures of anisotropy"));
+  CHECK(r.report.warnings().size() == 1);
+  CHECK(r.decoded == 0);
+  const Reading bare = with(Json::object());
+  REQUIRE(bare.asset);
+  CHECK((bare.asset->materials[0].anisotropy == 0 && bare.report.empty()));
+
+  const auto fault = [&](const char* key, const Json& value, const char* says) {
+    Json changed = brushed;
+    changed[key] = value;
+    const std::string message = with(changed).message();
+    INFO(message);
+    CHECK(message.find("/materials/0/extensions/KHR_materials_anisotropy/" + std::string(key)) != std::string::npos);
+    CHECK(message.find(says) != std::string::npos);
+  };
+  fault("anisotropyStrength", 1.5, "at most 1");
+  fault("anisotropyStrength", -0.5, "at least 0");
+  fault("anisotropyStrength", "much", "a number is expected");
+  fault("anisotropyRotation", true, "a number is expected");
+  fault("anisotropyTexture", 3, "an object is expected");
+  fault("anisotropyTexture", {{"index", 7}}, "does not exist");
+}
+
+TEST_CASE("a material names its substance in its extras", "[gltf]") {
+  Json file = {{"extensionsUsed", {"KHR_materials_unlit", "KHR_materials_pbrSpecularGlossiness"}}};
+  const auto with = [&](const Json& extras, const Json& extensions = Json::object()) {
+    file["materials"] = {{{"extras", extras}, {"extensions", extensions}}};
+    return readJson(file);
+  };
+  const auto named = [&](const Json& name) { return with({{"burnish", {{"substance", name}}}}); };
+  for (const char* name : {"gold", "Cubic-Zirconia", "stainless steel"}) {
+    const Reading r = named(name);
+    INFO(name << ": " << r.message());
+    REQUIRE(r.asset);
+    CHECK(r.asset->materials[0].substance == burnish::findSubstance(name));
+    CHECK(r.report.empty());
+  }
+  const auto refused = [](const Reading& r, const std::string& says) {
+    INFO(r.message());
+    REQUIRE(r.asset);
+    CHECK(r.asset->materials[0].substance == nullptr);
+    CHECK(r.warned("file.gltf: /materials/0/extras/burnish/substance: " + says));
+    CHECK(r.report.warnings().size() == 1);
+  };
+  refused(named("golt"), "unknown substance 'golt' is left out (did you mean 'gold'?)");
+  refused(named("unobtainium"), "unknown substance 'unobtainium' is left out");
+  refused(named(""), "unknown substance '' is left out");
+  refused(named(std::string(100000, 'x')), "unknown substance '" + std::string(40, 'x') + "' is left out");
+  refused(named(3), "number where the name of a substance is expected: it is left out");
+  refused(named(nullptr), "null where the name of a substance is expected: it is left out");
+  refused(named({"gold"}), "array where the name of a substance is expected: it is left out");
+  const Json gold = {{"burnish", {{"substance", "gold"}}}};
+  refused(with(gold, {{"KHR_materials_unlit", Json::object()}}), "the substance is left out: KHR_materials_unlit");
+  refused(with(gold, {{"KHR_materials_pbrSpecularGlossiness", Json::object()}}),
+          "the substance is left out: KHR_materials_pbrSpecularGlossiness");
+
+  for (const Json& foreign : {Json("gold"), Json::array(), Json{{"burnish", "gold"}}, Json{{"burnish", Json::object()}},
+                              Json{{"substance", "gold"}}}) {
+    const Reading r = with(foreign);
+    INFO(foreign.dump() << ": " << r.message());
+    REQUIRE(r.asset);
+    CHECK((r.asset->materials[0].substance == nullptr && r.report.empty()));
+  }
+}
+
 TEST_CASE("damaged pictures are warnings that name them", "[gltf]") {
   box().put("good.png", kPng);
   box().put("damaged.png", "not a picture at all");

@@ -146,6 +146,15 @@ struct Material {
   bool unlit = false;  ///< KHR_materials_unlit: albedo is shown as emission of 1 cd/m² × `unlitScale`
   bool useVertexColor = true;
   float metalness = 0;  ///< factor for metalRoughMap only
+
+  // The G-buffer does not carry what follows: the deferred path draws isotropic lobes and Schlick's F of F0; the forward reference path uses it.
+  /// Strength, 0 (none) to 1, as KHR_materials_anisotropy has it: with alpha = roughness², alpha_t = mix(alpha, 1, strength²) along the direction t and
+  /// alpha_b = alpha across it.
+  float anisotropy = 0;
+  float anisotropyRotation = 0;  ///< radians, any; counter-clockwise from the tangent: t = cos · tangent + sin · bitangent
+  /// A named conductor's Substance::eta and k (above 0), for the exact conductor Fresnel equation, which then gives the reflectance at normal incidence too;
+  /// both 0: not a named conductor.
+  glm::vec3 conductorEta{0}, conductorK{0};
 };
 
 /// A transform in the hierarchy.
