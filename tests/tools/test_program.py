@@ -204,6 +204,21 @@ class Inspect(Program):
         for expected in "meshes: 1 with 1 triangles", "lights: 1", "cameras: 2", "front", "gold-ish", "dielectric", "bounds: -1.000,-1.000,0.000 to 1.000,1.000,0.000", "warnings: ":
             self.assertIn(expected, text)
 
+    def test_named_conductor_and_anisotropy(self):
+        scene = json.loads(scene_text())
+        scene["extensionsUsed"].append("KHR_materials_anisotropy")
+        scene["materials"][0]["extensions"] = {"KHR_materials_anisotropy": {"anisotropyStrength": 0.5, "anisotropyRotation": 0.7853982}}
+        scene["materials"][0]["extras"] = {"burnish": {"substance": "copper"}}
+        self.scene.write_text(json.dumps(scene))
+        text = self.good("inspect", self.scene).stdout
+        for expected in "metal 100 %", "anisotropy 0.50 at 45.0°", "eta 0.224,1.041,1.295 k 3.335,2.628,2.360", "anisotropy is drawn by the forward reference path only":
+            self.assertIn(expected, text)
+        scene["materials"][0]["extras"]["burnish"]["substance"] = "coper"
+        self.scene.write_text(json.dumps(scene))
+        text = self.good("inspect", self.scene).stdout
+        self.assertIn("/materials/0/extras/burnish/substance: unknown substance 'coper' is left out (did you mean 'copper'?)", text)
+        self.assertNotIn("eta", text)
+
     def test_substance(self):
         gold = self.good("inspect", "--substance", "Gold").stdout
         self.assertRegex(gold, r"F0: [\d.]+,[\d.]+,[\d.]+")

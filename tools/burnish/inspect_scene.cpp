@@ -62,6 +62,10 @@ void printMaterials(const Scene& scene, const std::map<std::uint32_t, Use>& uses
     if (m.twoSided) extra += ", two-sided";
     if (m.unlit) extra += ", unlit";
     if (m.mapC) extra += ", map C";
+    if (m.anisotropy > 0) extra += fmt::format(", anisotropy {:.2f} at {:.1f}°", m.anisotropy, m.anisotropyRotation * 180 / M_PI);
+    if (m.conductorEta != glm::vec3(0))
+      extra += fmt::format(", eta {:.3f},{:.3f},{:.3f} k {:.3f},{:.3f},{:.3f}", m.conductorEta.x, m.conductorEta.y, m.conductorEta.z, m.conductorK.x, m.conductorK.y,
+                           m.conductorK.z);
     if (std::max({m.emission.x, m.emission.y, m.emission.z}) > 0) extra += fmt::format(", emits {:g},{:g},{:g} cd/m²", m.emission.x, m.emission.y, m.emission.z);
     const auto use = uses.find(id.index);
     fmt::print("  {}: {}, roughness {}{}, {} triangles\n", nameOr(m.name, "material", id.index), describeCodes(codes.least, codes.most),
