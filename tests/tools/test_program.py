@@ -384,6 +384,12 @@ class Sample(Program):
         self.good("render", "fps", "--camera", "hero", "--size", "160x90", "-o", self.out / "fps.png")
         self.assertIn("hero", self.good("inspect", "fps").stdout)
 
+    def test_chart_sample(self):
+        self.good("render", "chart", "--size", "160x90", "-o", self.out / "chart.png")
+        listing = self.good("inspect", "chart").stdout
+        self.assertIn("gem_0.05: dielectric, F0 0.250", listing)
+        self.assertIn("warnings: 0", listing)
+
 
 if __name__ == "__main__":
     BURNISH = sys.argv.pop(1)
