@@ -42,6 +42,7 @@ class RasterState {
 // Draws every visible instance that `wants`, with the pass's program for its variant; `before` runs once the instance is bound.
 template <class Wants, class Before>
 Result<void> drawInstances(FrameContext& c, plan::GeometryPass pass, bool occlusionTarget, Wants&& wants, Before&& before) {
+  const plan::LightingVariant lighting{int(c.lights.directional.size()), c.plan.on("environment_lighting"), c.plan.on("baked_occlusion"), c.view.orthographic};
   const GladGLContext& gl = c.device.gl;
   RasterState raster(gl);
   const gl::Program* used = nullptr;
@@ -57,7 +58,7 @@ Result<void> drawInstances(FrameContext& c, plan::GeometryPass pass, bool occlus
     if (!occlusionTarget) variant.occlusionMap = variant.packed = false;
     const std::size_t key = std::size_t(variant.general) + 2 * std::size_t(variant.alphaTest) + 4 * std::size_t(variant.occlusionMap) + 8 * std::size_t(variant.packed);
     if (!programs[key]) {
-      const std::string name = plan::geometryProgram(pass, variant, occlusionTarget).name;
+      const std::string name = pass == plan::GeometryPass::Forward ? plan::forwardProgram(variant, c.quality, lighting).name : plan::geometryProgram(pass, variant, occlusionTarget).name;
       programs[key] = c.programs.find(name);
       if (!programs[key]) return fail("frame plan", fmt::format("program '{}' is not in it", name), "report this as a fault of the engine");
     }
@@ -67,7 +68,7 @@ Result<void> drawInstances(FrameContext& c, plan::GeometryPass pass, bool occlus
     raster.set(material.twoSided, v.flipped);
     before(material);
     gl.DrawElements(GL_TRIANGLES, bound.mesh->indexCount, bound.mesh->indexType, nullptr);
-    if (pass == plan::GeometryPass::GBuffer) {
+    if (pass == plan::GeometryPass::GBuffer || pass == plan::GeometryPass::Forward) {
       ++c.stats.draws;
       c.stats.triangles += std::uint64_t(bound.mesh->indexCount) / 3;
     }
@@ -96,6 +97,21 @@ Result<void> drawGBuffer(FrameContext& c) {
     gl.ClearNamedFramebufferfv(*framebuffer, GL_DEPTH, 0, &far);
   }
   return drawInstances(c, plan::GeometryPass::GBuffer, occlusion, [](const Material&) { return true; }, [](const Material&) {});
+}
+
+Result<void> drawForward(FrameContext& c) {
+  const GladGLContext& gl = c.device.gl;
+  auto framebuffer = c.targets.framebuffer({"light"}, "depth");
+  if (!framebuffer) return fail(framebuffer.error());
+  gl.BindFramebuffer(GL_FRAMEBUFFER, *framebuffer);
+  c.setViewport();
+  gl.Enable(GL_DEPTH_TEST);
+  gl.DepthMask(GL_TRUE);
+  gl.DepthFunc(GL_GREATER);
+  const float black[4] = {0, 0, 0, 1}, far = 0;
+  gl.ClearNamedFramebufferfv(*framebuffer, GL_COLOR, 0, black);
+  if (!c.plan.on("host_depth_in")) gl.ClearNamedFramebufferfv(*framebuffer, GL_DEPTH, 0, &far);
+  return drawInstances(c, plan::GeometryPass::Forward, c.plan.on("baked_occlusion"), [](const Material&) { return true; }, [](const Material&) {});
 }
 
 Result<void> drawEmissive(FrameContext& c) {

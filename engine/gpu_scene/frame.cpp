@@ -142,6 +142,7 @@ Result<void> uploadFrameData(FrameContext& c, float displayExposure) {
     d.environment.x = c.environment->lastLevel;
     for (std::size_t i = 0; i < 9; ++i) d.irradiance[i] = vec4(c.environment->irradiance[i] * scale, 0);
   }
+  d.environment.y = float(c.lights.local.size());
   d.viewport = c.view.viewport;
   for (std::size_t i = 0; i < c.lights.directional.size(); ++i) {
     d.directional[2 * i] = vec4(c.lights.directional[i].toLight, 0);
@@ -174,7 +175,7 @@ Result<void> uploadDraws(FrameContext& c) {
 bool bindInstance(FrameContext& c, std::size_t i, bool general, BoundInstance& bound) {
   const scene::VisibleInstance& v = c.visible[i];
   const Material* material = c.scene.materials.get(v.instance->material);
-  const GpuMesh* mesh = c.gpuScene.mesh(c.scene, v.instance->mesh, material && material->mapB, c.report);
+  const GpuMesh* mesh = c.gpuScene.mesh(c.scene, v.instance->mesh, material && (material->mapB || material->anisotropy > 0), c.report);
   if (!mesh) return false;
   const GladGLContext& gl = c.device.gl;
   if (mesh != bound.mesh || general != bound.general) {

@@ -58,6 +58,13 @@ MaterialData dataOf(const Material& m) {
   const UvMapping* maps[] = {&m.uvA, &m.uvB, &m.uvC, &m.uvMetalRough, &m.uvEmissive};
   for (int i = 0; i < 5; ++i)
     for (int row = 0; row < 2; ++row) d.uv[2 * i + row] = uvRow(*maps[i], row);
+  for (int i = 0; i < 3; ++i) {
+    d.conductorEta[i] = finiteOr(m.conductorEta[i], 0, 1e4f, 0);
+    d.conductorK[i] = finiteOr(m.conductorK[i], 0, 1e4f, 0);
+  }
+  d.conductorEta.w = unit(m.anisotropy, 0);
+  // Within one turn, where sine and cosine keep their precision.
+  d.conductorK.w = std::isfinite(m.anisotropyRotation) ? std::remainder(m.anisotropyRotation, 6.2831853f) : 0;
   return d;
 }
 

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "plan/rungs.h"
 #include "plan/variants.h"
-#include "prefilter/dfg.h"
 
 namespace burnish::lighting {
 
@@ -63,7 +63,10 @@ Result<void> LightingPass::uploadLights(FrameContext& c) {
     t[2] = glm::vec4(l.axis, l.spotScale);
     t[3] = glm::vec4(l.spotOffset, 0, 0, 0);
   }
-  if (auto w = lights_.write(std::as_bytes(std::span(texels))); !w) return w;
+  return lights_.write(std::as_bytes(std::span(texels)));
+}
+
+Result<void> LightingPass::uploadLists() {
   if (auto w = entries_.write(std::as_bytes(std::span(lists_->entries))); !w) return w;
   return tiles_.write(std::as_bytes(std::span(lists_->tiles)));
 }
@@ -78,7 +81,8 @@ Result<void> LightingPass::buildTiles(FrameContext& c) {
   }
   lists_ = &culler_.cull(c.view, tileDepths_, lights);
   c.stats.lightsInView += lists_->lightsInView;
-  return uploadLights(c);
+  if (auto w = uploadLights(c); !w) return w;
+  return uploadLists();
 }
 
 // Whole tiles, so that no point's centre falls outside and is clipped; the scissor keeps the view's rectangle.
@@ -89,16 +93,47 @@ void LightingPass::widenViewport(const FrameContext& c) {
   c.device.gl.Enable(GL_PROGRAM_POINT_SIZE);
 }
 
-Result<GLuint> LightingPass::dfgTable(Geometry geometry) {
-  gl::Texture& t = dfg_[std::size_t(geometry)];
+Result<GLuint> LightingPass::dfgTable(const Quality& quality) {
+  const int index = prefilter::dfgIndex(plan::rungsOf(quality));
+  gl::Texture& t = dfg_[std::size_t(index)];
   if (!t) {
-    auto made = gl::Texture::create(device_, {.format = GL_RG16, .width = prefilter::kDfgSize, .height = prefilter::kDfgSize}, "dfg");
+    const prefilter::DfgTable table = prefilter::dfgTable(index);
+    // Albedos above 1 (models that gain energy) do not fit normalized integers.
+    auto made = gl::Texture::create(device_, {.format = GLenum(table.scale > 1 ? GL_RG32F : GL_RG16), .width = table.width, .height = table.height}, "dfg");
     if (!made) return fail(made.error());
-    made->upload(0, prefilter::dfgTable(geometry).data());
+    if (table.scale > 1) {
+      std::vector<float> values(table.texels.size());
+      std::transform(table.texels.begin(), table.texels.end(), values.begin(), [&](std::uint16_t v) { return float(v) / 65535 * table.scale; });
+      made->upload(0, values.data());
+    } else {
+      made->upload(0, table.texels.data());
+    }
     made->setFilter(GL_LINEAR, GL_LINEAR);
     t = std::move(*made);
   }
   return t.id();
+}
+
+Result<void> LightingPass::bindSurroundings(FrameContext& c, int environmentUnit) {
+  const bool environment = c.plan.on("environment_lighting");
+  if (plan::needsDfg(c.quality, environment)) {
+    auto table = dfgTable(c.quality);
+    if (!table) return fail(table.error());
+    c.device.gl.BindTextureUnit(UNIT_DFG, *table);
+  }
+  if (plan::needsCube(c.quality, environment)) {
+    c.environment->cube.bind(GLuint(environmentUnit));
+    c.device.gl.Enable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
+  }
+  return {};
+}
+
+Result<void> LightingPass::bindForward(FrameContext& c) {
+  if (auto done = uploadLights(c); !done) return done;
+  c.stats.lightsInView += int(c.lights.local.size());
+  c.device.gl.BindSamplers(0, 10, nullptr);
+  lights_.bind(UNIT_LIGHTS);
+  return bindSurroundings(c, UNIT_FORWARD_ENVIRONMENT);
 }
 
 Result<void> LightingPass::shadeTiles(FrameContext& c) {
@@ -114,19 +149,13 @@ Result<void> LightingPass::shadeTiles(FrameContext& c) {
   gl.BindSamplers(0, 10, nullptr);
   const bool occlusion = c.plan.on("baked_occlusion"), environment = c.plan.on("environment_lighting");
   if (occlusion) c.targets.texture("gbuffer_c")->bind(UNIT_GBUFFER_C);
-  if (environment) {
-    auto table = dfgTable(c.quality.geometry);
-    if (!table) return fail(table.error());
-    gl.BindTextureUnit(UNIT_DFG, *table);
-    c.environment->cube.bind(UNIT_ENVIRONMENT);
-    gl.Enable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
-  }
+  if (auto bound = bindSurroundings(c, UNIT_ENVIRONMENT); !bound) return bound;
   lights_.bind(UNIT_LIGHTS);
   entries_.bind(UNIT_LIGHT_LISTS);
   tileArray_.bind();
   gl.VertexArrayVertexBuffer(tileArray_.id(), 0, tiles_.id(), 0, sizeof(TileVertex));
   for (const TileGroup& g : lists_->groups) {
-    const std::string name = plan::lightingProgram(g.bucket, c.quality, int(c.lights.directional.size()), environment, occlusion, c.view.orthographic).name;
+    const std::string name = plan::lightingProgram(g.bucket, c.quality, {int(c.lights.directional.size()), environment, occlusion, c.view.orthographic}).name;
     const gl::Program* program = c.programs.find(name);
     if (!program) return fail("frame plan", fmt::format("program '{}' is not in it", name), "report this as a fault of the engine");
     program->use();

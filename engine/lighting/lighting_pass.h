@@ -2,6 +2,7 @@
 #pragma once
 #include "gpu_scene/frame.h"
 #include "lighting/light_tiles.h"
+#include "prefilter/dfg.h"
 
 namespace burnish::lighting {
 
@@ -12,6 +13,8 @@ class LightingPass {
   Result<void> buildTiles(gpu_scene::FrameContext& context);
   /// Pass "lighting": shades the tiles that hold surfaces into the light buffer.
   Result<void> shadeTiles(gpu_scene::FrameContext& context);
+  /// Binds what the forward reference shades with: every light, the environment, the lobe's table. The pass "forward" draws then.
+  Result<void> bindForward(gpu_scene::FrameContext& context);
   /// Pass "background": where nothing was drawn.
   Result<void> drawBackground(gpu_scene::FrameContext& context);
   /// Draws every tile with the bound program (debug view of the lists).
@@ -21,7 +24,10 @@ class LightingPass {
   explicit LightingPass(gl::Device& device) : device_(device) {}
   Result<void> readTileDepths(gpu_scene::FrameContext& context);
   Result<void> uploadLights(gpu_scene::FrameContext& context);
-  Result<GLuint> dfgTable(Geometry geometry);
+  Result<void> uploadLists();
+  /// The environment and the lobe's table, where the quality reads them.
+  Result<void> bindSurroundings(gpu_scene::FrameContext& context, int environmentUnit);
+  Result<GLuint> dfgTable(const Quality& quality);
   static void widenViewport(const gpu_scene::FrameContext& context);
 
   gl::Device& device_;
@@ -32,7 +38,7 @@ class LightingPass {
   gl::Buffer tiles_;
   gl::VertexArray tileArray_;
   gl::TextureBuffer lights_, entries_;
-  std::array<gl::Texture, 2> dfg_;
+  std::array<gl::Texture, prefilter::kDfgTables> dfg_;  ///< made when first asked for
 };
 
 }  // namespace burnish::lighting

@@ -7,6 +7,7 @@
 #include <array>
 #include <set>
 
+#include "interface/limits.h"
 #include "plan/variants.h"
 
 namespace burnish {
@@ -76,8 +77,10 @@ class Builder {
     lightsView_ = options.debugView == DebugView::Lights;
     geometry_ = !needs_.geometry.empty() || options.hostDepthIn;
     occlusion_ = !needs_.occlusion.empty() && (final_ || options.debugView == DebugView::Occlusion);
-    environment_ = !needs_.environment.empty() && quality.environmentSpecular != EnvironmentSpecular::None;
+    environment_ = !needs_.environment.empty() && (quality.environmentSpecular != EnvironmentSpecular::None || quality.ambient != Ambient::None);
     lit_ = geometry_ && (needs_.directionalLights > 0 || needs_.localLights > 0 || environment_);
+    forwardRung_ = forwardOnlyRung(quality);
+    forward_ = final_ && !needs_.geometry.empty() && (quality.path == Path::Forward || !forwardRung_.empty());
     automatic_ = final_ && options.output == Output::Display && !quality.exposureEv && options.debugView == DebugView::Final;
   }
   FramePlan build() {
@@ -97,6 +100,7 @@ class Builder {
     if (std::find(plan_.programs.begin(), plan_.programs.end(), p) == plan_.programs.end()) plan_.programs.push_back(p);
     return p.name;
   }
+  [[nodiscard]] plan::LightingVariant lighting(bool orthographic) const { return {std::min(needs_.directionalLights, MAX_DIRECTIONAL), environment_, occlusion_, orthographic}; }
   std::string screen(std::string name, std::string fragment, std::vector<std::string> defines) {
     return program({std::move(name), "post/screen.vert", std::move(fragment), std::move(defines)});
   }
@@ -119,6 +123,7 @@ class Builder {
   void addPasses();
   void addGeometry();
   void addLighting();
+  void addForward();
   void addPost();
 
   std::span<const View> views_;
@@ -127,7 +132,8 @@ class Builder {
   const PlanOptions& options_;
   Needs needs_;
   FramePlan plan_;
-  bool final_ = true, lightsView_ = false, geometry_ = false, occlusion_ = false, environment_ = false, lit_ = false, automatic_ = false;
+  std::string forwardRung_;
+  bool final_ = true, lightsView_ = false, geometry_ = false, occlusion_ = false, environment_ = false, lit_ = false, automatic_ = false, forward_ = false;
 };
 
 void Builder::addEffects() {
@@ -143,6 +149,9 @@ void Builder::addEffects() {
               needs_.environment.empty() ? "an environment map or colour would call for it" : "the quality turns it off",
               geometry_ ? "the debug view does not show it" : "nothing to light");
   sceneEffect("background", needs_.background, final_, "an environment shown as background would call for it");
+  effect("forward_reference", forward_, CalledBy::Setting,
+         forward_ ? (forwardRung_.empty() ? "path=forward" : forwardRung_ + " needs what the G-buffer does not hold")
+                  : quality_.path == Path::Forward || !forwardRung_.empty() ? (geometry_ ? "the debug view shows the G-buffer" : "nothing to shade") : "path=forward or a forward-only rung would call for it");
   effect("auto_exposure", automatic_, CalledBy::Setting,
          automatic_ ? "no exposure is set" : options_.output == Output::Linear ? "linear output is untouched by exposure" : quality_.exposureEv ? "the exposure is set" : "the debug view does not need it");
   const bool toneMapped = options_.output == Output::Display && options_.debugView == DebugView::Final;
@@ -160,6 +169,8 @@ void Builder::addTargets() {
   const int w = options_.size.x, h = options_.size.y;
   if (geometry_) {
     target("depth", "DEPTH_COMPONENT32F", 4, w, h);
+  }
+  if (geometry_ && !forward_) {
     target("gbuffer_a", "RGBA8", 4, w, h);
     target("gbuffer_b", "RGBA8", 4, w, h);
     plan_.gbufferBytesPerPixel = 8;
@@ -174,7 +185,7 @@ void Builder::addTargets() {
     target("light", wide ? "RGBA32F" : "RGBA16F", wide ? 16 : 8, w, h);
   }
   if (automatic_) target("exposure", "RG32F", 8, 1, 1);
-  const bool tiles = geometry_ && ((final_ && lit_) || lightsView_);
+  const bool tiles = geometry_ && !forward_ && ((final_ && lit_) || lightsView_);
   if (tiles && reduceDepth()) target("tile_depth", "RGBA32F", 16, (w + 15) / 16, (h + 15) / 16);
 }
 
@@ -200,16 +211,16 @@ void Builder::addLighting() {
   if (lightsView_) return;
   PassPlan pass{"lighting", {"gbuffer_a", "gbuffer_b", "depth", "lights", "light lists"}, {"light"}, {}};
   if (occlusion_) pass.reads.push_back("gbuffer_c");
-  if (environment_) pass.reads.insert(pass.reads.end(), {"environment cube", "dfg"});
-  const int directional = std::min(needs_.directionalLights, 8);
+  if (plan::needsCube(quality_, environment_)) pass.reads.push_back("environment cube");
+  if (plan::needsDfg(quality_, environment_)) pass.reads.push_back("dfg");
   for (bool orthographic : projections()) {
     for (int bucket : plan::kTileBuckets) {
       if (bucket > 0 && !local) break;
-      pass.programs.push_back(program(plan::lightingProgram(bucket, quality_, directional, environment_, occlusion_, orthographic)));
+      pass.programs.push_back(program(plan::lightingProgram(bucket, quality_, lighting(orthographic))));
       if (bucket >= needs_.localLights) break;
     }
-    if (local) pass.programs.push_back(program(plan::lightingProgram(plan::kLoop, quality_, directional, environment_, occlusion_, orthographic)));
-    if (needs_.spots) pass.programs.push_back(program(plan::lightingProgram(plan::kLoopSpots, quality_, directional, environment_, occlusion_, orthographic)));
+    if (local) pass.programs.push_back(program(plan::lightingProgram(plan::kLoop, quality_, lighting(orthographic))));
+    if (needs_.spots) pass.programs.push_back(program(plan::lightingProgram(plan::kLoopSpots, quality_, lighting(orthographic))));
   }
   plan_.passes.push_back(std::move(pass));
 }
@@ -254,9 +265,23 @@ void Builder::addPost() {
   if (options_.hostDepthOut) plan_.passes.push_back({"depth_out", {"depth"}, {"host depth"}, {screen("depth_out", "post/depth_out.frag", {fmt::format("GEOMETRY {}", int(geometry_))})}});
 }
 
+// One pass in place of G-buffer, tiles and lighting.
+void Builder::addForward() {
+  PassPlan pass{"forward", {"meshes", "materials", "lights"}, {"light", "depth"}, {}};
+  if (plan::needsCube(quality_, environment_)) pass.reads.push_back("environment cube");
+  if (plan::needsDfg(quality_, environment_)) pass.reads.push_back("dfg");
+  for (bool orthographic : projections())
+    for (const plan::GeometryVariant& v : needs_.variants) pass.programs.push_back(program(plan::forwardProgram(v, quality_, lighting(orthographic))));
+  plan_.passes.push_back(std::move(pass));
+}
+
 void Builder::addPasses() {
-  addGeometry();
-  addLighting();
+  if (forward_) {
+    addForward();
+  } else {
+    addGeometry();
+    addLighting();
+  }
   addPost();
 }
 

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 
+#include "plan/rungs.h"
+#include "prefilter/dfg.h"
+
 namespace burnish::plan {
 namespace {
 std::string define(std::string_view name, int value) { return fmt::format("{} {}", name, value); }
@@ -39,19 +42,60 @@ ProgramPlan geometryProgram(GeometryPass pass, GeometryVariant variant, bool occ
   return p;
 }
 
-ProgramPlan lightingProgram(int bucket, const Quality& quality, int directional, bool environment, bool occlusion, bool orthographic) {
+bool needsDfg(const Quality& q, bool environment) {
+  return shading::needsAlbedoTable(rungsOf(q)) || (environment && (q.environmentSpecular == EnvironmentSpecular::Dfg || q.environmentSpecular == EnvironmentSpecular::Sampled));
+}
+bool needsCube(const Quality& q, bool environment) { return environment && q.environmentSpecular != EnvironmentSpecular::None; }
+
+namespace {
+
+// Everything that lighting/shade.glsl asks for. Rungs of what is off stand at 0, so that changing them links nothing anew.
+std::vector<std::string> shadeDefines(const Quality& q, const LightingVariant& lighting) {
+  const shading::Rungs k = rungsOf(q);
+  const bool dfg = needsDfg(q, lighting.environment);
+  const prefilter::DfgTable table = dfg ? prefilter::dfgTable(prefilter::dfgIndex(k)) : prefilter::DfgTable{};
+  return {define("DFG", dfg),
+          define("DFG_HEIGHT", table.height),
+          define("DFG_WIDTH", table.width),
+          define("DIRECTIONAL", lighting.directional),
+          define("ENVIRONMENT", lighting.environment),
+          define("ORTHOGRAPHIC", lighting.orthographic),
+          define("RUNG_AMBIENT", lighting.environment ? int(q.ambient) : 0),
+          define("RUNG_COMPENSATION", k.compensation),
+          define("RUNG_DIFFUSE", k.diffuse),
+          define("RUNG_DIRECT_OCCLUSION", lighting.occlusion ? int(q.directOcclusion) : 0),
+          define("RUNG_DISTRIBUTION", k.distribution),
+          define("RUNG_ENVIRONMENT_SPECULAR", lighting.environment ? int(q.environmentSpecular) : 0),
+          define("RUNG_FRESNEL", k.fresnel),
+          define("RUNG_GEOMETRY", k.geometry),
+          define("RUNG_LOBE", k.lobe),
+          define("RUNG_NORMALIZATION", k.normalization),
+          define("RUNG_SPECULAR", k.specular),
+          define("RUNG_SPECULAR_OCCLUSION", lighting.occlusion && lighting.environment ? int(q.specularOcclusion) : 0)};
+}
+
+}  // namespace
+
+ProgramPlan lightingProgram(int bucket, const Quality& quality, const LightingVariant& lighting) {
   ProgramPlan p;
   p.name = bucket == kLoop ? "lighting/loop" : bucket == kLoopSpots ? "lighting/loop_spots" : fmt::format("lighting/tile{}", bucket);
   p.vertex = "lighting/tile.vert";
   p.fragment = "lighting/tile.frag";
-  p.defines = {define("DIRECTIONAL", directional),
-               define("ENVIRONMENT", environment),
-               define("OCCLUSION", occlusion),
-               define("ORTHOGRAPHIC", orthographic),
-               define("RUNG_GEOMETRY", int(quality.geometry)),
-               define("RUNG_LOBE", int(quality.lobe)),
-               define("TILE_LIGHTS", bucket)};
-  if (orthographic) p.name += "+ortho";
+  p.defines = shadeDefines(quality, lighting);
+  p.defines.push_back(define("OCCLUSION", lighting.occlusion));
+  p.defines.push_back(define("TILE_LIGHTS", bucket));
+  std::sort(p.defines.begin(), p.defines.end());
+  if (lighting.orthographic) p.name += "+ortho";
+  return p;
+}
+
+ProgramPlan forwardProgram(GeometryVariant variant, const Quality& quality, const LightingVariant& lighting) {
+  ProgramPlan p = geometryProgram(GeometryPass::GBuffer, variant, lighting.occlusion);
+  p.name = "forward" + p.name.substr(std::string_view("gbuffer").size());
+  p.fragment = "lighting/forward.frag";
+  for (std::string& d : shadeDefines(quality, lighting)) p.defines.push_back(std::move(d));
+  std::sort(p.defines.begin(), p.defines.end());
+  if (lighting.orthographic) p.name += "+ortho";
   return p;
 }
 

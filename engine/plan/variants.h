@@ -18,15 +18,28 @@ bool packsOcclusion(const Material& material);
 bool emits(const Material& material);
 
 /// The passes that draw geometry.
-enum class GeometryPass : std::uint8_t { GBuffer, Emissive, Pick };
-/// occlusionTarget: the frame has a third target.
+enum class GeometryPass : std::uint8_t { GBuffer, Emissive, Pick, Forward };
+/// occlusionTarget: the frame has a third target. Not for Forward, which forwardProgram makes.
 ProgramPlan geometryProgram(GeometryPass pass, GeometryVariant variant, bool occlusionTarget);
+
+/// What the lighting programs of a frame have in common.
+struct LightingVariant {
+  int directional = 0;        ///< directional lights
+  bool environment = false;   ///< the surroundings light the scene
+  bool occlusion = false;     ///< baked occlusion is there
+  bool orthographic = false;
+};
+/// The lobe's table (prefilter/dfg.h) is read.
+bool needsDfg(const Quality& quality, bool environment);
+/// The prefiltered cube is read.
+bool needsCube(const Quality& quality, bool environment);
 
 /// Sizes of the unrolled lighting programs (10 lights, rays and irradiance fill 30 of 32 varyings): a tile's list is padded to the next one; longer lists are looped over.
 inline constexpr int kTileBuckets[] = {0, 1, 2, 3, 4, 6, 8, 10};
 inline constexpr int kLoop = -1;       ///< the program that loops over long lists of point lights
 inline constexpr int kLoopSpots = -2;  ///< the program that loops over lists with spots among them
-/// `directional` lights, `environment`: the surroundings light the scene.
-ProgramPlan lightingProgram(int bucket, const Quality& quality, int directional, bool environment, bool occlusion, bool orthographic);
+ProgramPlan lightingProgram(int bucket, const Quality& quality, const LightingVariant& lighting);
+/// The forward reference path's program of a geometry variant.
+ProgramPlan forwardProgram(GeometryVariant variant, const Quality& quality, const LightingVariant& lighting);
 
 }  // namespace burnish::plan

@@ -1,19 +1,36 @@
-// The directional albedo of the specular lobe as scale and bias of F0 (DFG), tabulated when the project is built.
+// The directional albedo of each specular lobe as scale and bias of F0 (DFG), integrated in double and tabulated when the project is built.
 #pragma once
-#include <burnish/quality.h>
-
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
 
+#include "reference/shading.h"
+
 namespace burnish::prefilter {
 
-/// Texels on each side. Column i stands for n·v = i/(size-1), row j for perceptual roughness j/(size-1); dfgCoordinate of shading/environment.h leads there.
-inline constexpr int kDfgSize = 64;
-/// kDfgSize² pairs (scale, bias) as 16-bit unsigned normalized: E(v) = F0 · scale + bias, Schlick's Fresnel, exact normalization.
-std::span<const std::uint16_t> dfgTable(Geometry geometry);
+/// (scale, bias) as 16-bit unsigned normalized times `scale`: E(v) = F0 · scale + bias with Schlick's Fresnel. Rows of `width` texels; shading/dfg.h says which texel stands for
+/// what. Bilinear filtering errs by at most 1e-3 of max(1, E) (tests/shading/dfg_test).
+struct DfgTable {
+  int width = 0, height = 0;
+  float scale = 1;
+  std::span<const std::uint16_t> texels;  ///< 2 · width · height
+};
 
-/// One entry by quadrature over the half vector (importance sampled grid of u × v samples), in double. nov in (0, 1], roughness in [0, 1].
-glm::dvec2 integrateDfg(Geometry geometry, double nov, double roughness, int u = 128, int v = 64);
+/// How many different lobes there are; several rungs share one (Cook-Torrance is Beckmann's distribution with V-cavities).
+inline constexpr int kDfgTables = 20;
+/// The table of the lobe in force, below kDfgTables. Normalizations other than the exact one scale it (dfgScale of shading/dfg.h).
+int dfgIndex(const shading::Rungs& rungs);
+/// Rungs whose table has that index.
+shading::Rungs dfgRungs(int index);
+/// index < kDfgTables.
+DfgTable dfgTable(int index);
+
+/// One entry by quadrature in double. nov and alpha in (0, 1]. More nodes where `fine`.
+glm::dvec2 integrateDfg(const shading::Rungs& rungs, double nov, double alpha, bool fine = false);
+/// 2 ∫ of it times the cosine.
+glm::dvec2 integrateDfgMean(const shading::Rungs& rungs, double alpha, bool fine = false);
+/// What dfgColumn and dfgRow of shading/dfg.h take to a coordinate in [0, 1].
+double cosineOfColumn(double column);
+double alphaOfRow(double row);
 
 }  // namespace burnish::prefilter

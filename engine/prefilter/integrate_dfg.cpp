@@ -1,36 +1,67 @@
-// E(v) = ∫ F D V (n·l) dl. With h drawn with density D (n·h) (Walter et al. 2007, section 5.2; for Blinn-Phong n·h = u^(1/(p+2))) and dl = 4 (l·h) dh it is the mean of
-// F · 4 V (n·l) (l·h) / (n·h); F = F0 + (1 - F0) (1 - l·h)^5 splits it into scale and bias (Karis 2013, eq. 8).
+// E(v) = ∫ f(l, v) (n·l) dl with F = F0 + (1 - F0) (1 - l·h)^5 split into scale and bias (Karis 2013, "Real Shading in Unreal Engine 4", eq. 8).
 #include <algorithm>
 #include <cmath>
 
 #include "prefilter/dfg.h"
-#include "reference/shading.h"
+#include "reference/quadrature.h"
 
 namespace burnish::prefilter {
 
-glm::dvec2 integrateDfg(Geometry geometry, double nov, double roughness, int nu, int nv) {
-  using namespace shading::f64;
-  const double alpha = alphaFromRoughness(std::max(roughness, 0.02));
-  const double p = powerFromAlpha(alpha);
-  nov = std::clamp(nov, 1e-4, 1.0);
-  const glm::dvec3 view(std::sqrt(1 - nov * nov), 0, nov);
-  glm::dvec2 sum(0);
-  for (int i = 0; i < nu; ++i) {
-    const double noh = std::pow((i + 0.5) / nu, 1 / (p + 2)), sine = std::sqrt(std::max(1 - noh * noh, 0.0));
-    for (int j = 0; j < nv; ++j) {
-      const double phi = (j + 0.5) / nv * 3.14159265358979323846;  // symmetric in azimuth: half is enough
-      const glm::dvec3 h(sine * std::cos(phi), sine * std::sin(phi), noh);
-      const double voh = glm::dot(view, h);
-      const double nol = 2 * voh * noh - nov;
-      if (nol <= 0 || voh <= 0) continue;
-      const double s2inverse = 1 / (4 * voh * voh);
-      const double weight = geometry == Geometry::Kelemen ? 4 * V_kelemen(s2inverse) * nol * voh / noh
-                                                          : 4 * normalizationExact(p) / ((p + 2) / (2 * BURNISH_PI)) * nol * voh / noh;
-      const double w = schlickWeight(voh);
-      sum += glm::dvec2(1 - w, w) * weight;
-    }
+namespace f64 = shading::f64;
+
+int dfgIndex(const shading::Rungs& k) {
+  switch (k.specular) {
+    case SPECULAR_MICROFACET: return k.distribution * 5 + k.geometry;
+    case SPECULAR_NORMALIZED_BLINN_PHONG: return DISTRIBUTION_BLINN_PHONG * 5 + GEOMETRY_VOID;
+    case SPECULAR_COOK_TORRANCE: return DISTRIBUTION_BECKMANN * 5 + GEOMETRY_V_CAVITY;
+    case SPECULAR_WARD_BOUNDED: return DISTRIBUTION_BECKMANN * 5 + GEOMETRY_KELEMEN;
+    case SPECULAR_GGX_SMITH: return DISTRIBUTION_GGX * 5 + GEOMETRY_SMITH;
+    case SPECULAR_PHONG: return 15;
+    case SPECULAR_BLINN_PHONG: return 16;
+    case SPECULAR_MODIFIED_PHONG: return 17;
+    case SPECULAR_MAX_PHONG: return 18;
+    default: return 19;  // both of Ward's with the unbounded albedo; the anisotropic one as if its widths were equal
   }
-  return sum / double(nu * nv);
+}
+
+shading::Rungs dfgRungs(int index) {
+  shading::Rungs k{SPECULAR_MICROFACET, 0, 0, NORMALIZATION_EXACT, LOBE_STABLE, FRESNEL_SCHLICK, DIFFUSE_LAMBERT, COMPENSATION_NONE, 0};
+  constexpr int kModels[] = {SPECULAR_PHONG, SPECULAR_BLINN_PHONG, SPECULAR_MODIFIED_PHONG, SPECULAR_MAX_PHONG, SPECULAR_WARD};
+  if (index >= 15) {
+    k.specular = kModels[index - 15];
+  } else {
+    k.distribution = index / 5;
+    k.geometry = index % 5;
+  }
+  return k;
+}
+
+glm::dvec2 integrateDfg(const shading::Rungs& rungs, double nov, double alpha, bool fine) {
+  const f64::Surface m = f64::makeSurface({0, 0, 1}, reference::directionAt(nov), glm::dvec3(1), 1, alpha);
+  const reference::Resolution resolution = fine ? reference::Resolution{96, 96} : reference::Resolution{40, 32};
+  const auto integrand = [&](const glm::dvec3& l) {
+    const f64::Angles a = f64::anglesOf(m, l);
+    const double w = f64::schlickWeight(a.loh);
+    return glm::dvec2(1 - w, w) * f64::specularRung(m, a, rungs);
+  };
+  const glm::dvec2 e = lobeFamily(rungs) == LOBE_FAMILY_PHONG ? reference::integrateMirror<glm::dvec2>(nov, alpha, integrand, resolution)
+                                                              : reference::integrateHalf<glm::dvec2>(nov, alpha, integrand, resolution);
+  return e;
+}
+
+glm::dvec2 integrateDfgMean(const shading::Rungs& rungs, double alpha, bool fine) {
+  return reference::hemisphereMean<glm::dvec2>([&](double c) { return integrateDfg(rungs, std::max(c, 1e-7), alpha, fine); }, fine ? 64 : 32);
+}
+
+double cosineOfColumn(double column) { return std::clamp(std::pow(0.1 + 0.9 * column, 4), 1e-4, 1.0); }
+
+double alphaOfRow(double row) {
+  double low = 4e-4, high = 1;
+  for (int i = 0; i < 100; ++i) {
+    const double middle = std::sqrt(low * high);
+    (f64::dfgRow(middle) < row ? low : high) = middle;
+  }
+  return row <= 0 ? 4e-4 : row >= 1 ? 1 : low;
 }
 
 }  // namespace burnish::prefilter

@@ -6,7 +6,13 @@
 #include "shading/bridge.h"
 
 // NOLINTBEGIN
+namespace burnish::shading {
+#include "shading/rungs.h"  // the numbers and Rungs, once for all precisions
+}
+// The generator of the DFG tables takes the specular models alone, so that no other term rebuilds them.
+#ifndef BURNISH_SHADING_TERMS
 #define BURNISH_SHADING_TERMS "reference/shading_terms.inl"
+#endif
 namespace burnish::shading {
 // For u > 0: 2^-e with u 2^-e in [sqrt(1/2), sqrt(2)), and e (bridge.h has GLSL's).
 template <class T>

@@ -1,28 +1,4 @@
-// Included once for each precision by reference/shading.h; the order is that of the terms' dependencies.
-using glm::abs;
-using glm::clamp;
-using glm::cross;
-using glm::dot;
-using glm::exp2;
-using glm::floor;
-using glm::inversesqrt;
-using glm::log2;
-using glm::max;
-using glm::min;
-using glm::normalize;
-using glm::pow;
-using glm::sqrt;
-#include "shading/constants.h"
-#include "shading/roughness.h"
-#include "shading/normals.h"
-#include "shading/albedo.h"
-#include "shading/substance.h"
-#include "shading/fresnel.h"
-#include "shading/lobe.h"
-#include "shading/distribution.h"
-#include "shading/geometry.h"
-#include "shading/light.h"
-#include "shading/surface.h"
-#include "shading/default_path.h"
-#include "shading/environment.h"
+// Included once for each precision by reference/shading.h.
+#include "reference/shading_functions.inl"
+#include "shading/all.h"
 #include "shading/tonemap.h"

@@ -78,6 +78,7 @@ struct Renderer::Impl {
   FramePlan plan;
   Report report;
   std::size_t reported = 0;
+  std::optional<Quality> reportedQuality;
   std::vector<scene::VisibleInstance> visible;
 
   SceneState& stateOf(const Scene& scene) {
@@ -88,6 +89,14 @@ struct Renderer::Impl {
   void logNewWarnings() {
     for (; reported < report.warnings().size(); ++reported)
       if (options.log) options.log(LogLevel::Warning, report.warnings()[reported].message());
+  }
+  /// Says once what the quality asks for and does not get as asked.
+  void reportQuality(const Quality& quality) {
+    if (quality == reportedQuality) return;
+    reportedQuality = quality;
+    if (const std::string rung = forwardOnlyRung(quality); !rung.empty() && plan.on("forward_reference"))
+      report.warn("quality", fmt::format("{} needs what the G-buffer does not hold: drawn by the forward reference path (slow)", rung));
+    for (const std::string& text : idleRungs(quality)) report.warn("quality", text);
   }
   PlanOptions planOptions(const Target& target, const RenderRequest& request) const {
     PlanOptions o;
@@ -147,6 +156,10 @@ Result<void> Renderer::Impl::runPass(const PassPlan& pass, FrameContext& c, cons
   const auto writesHalf = [&c]() -> Result<GLuint> { return c.targets.texture("depth") ? c.targets.framebuffer({"light"}, "depth") : c.targets.framebuffer({"light"}); };
   if (pass.name == "depth_in") return post::takeHostDepth(c, *target.depthIn);
   if (pass.name == "gbuffer") return gbuffer::drawGBuffer(c);
+  if (pass.name == "forward") {
+    if (auto bound = lighting->bindForward(c); !bound) return bound;
+    return gbuffer::drawForward(c);
+  }
   if (pass.name == "tiles") return lighting->buildTiles(c);
   if (pass.name == "lighting") return lighting->shadeTiles(c);
   if (pass.name == "emissive") return gbuffer::drawEmissive(c);
@@ -250,6 +263,9 @@ Result<FrameStats> Renderer::render(const Scene& scene, std::span<const View> vi
   if (auto good = m.checkRequest(target, views); !good) return fail(good.error());
   const CallState callState(*m.device, m.options.hostState);
   m.plan = makePlan(scene, views, quality, m.device->caps, m.planOptions(target, request));
+  if (m.plan.on("forward_reference") && target.depthIn)
+    return fail("target", "it brings depth, which the forward reference path cannot take in", "leave depthIn empty, or use path=deferred and rungs that are not forward-only");
+  m.reportQuality(quality);
   FrameStats stats;
   Result<void> done = m.programSet->prepare(m.plan);
   if (done) done = m.targets->prepare(m.plan);

@@ -1,22 +1,13 @@
 // Fills the G-buffer: RT0 albedo (square root) + substance code, RT1 octahedral normal 2x12 + log-alpha code, RT2 baked ambient occlusion.
-// Definitions: GENERAL, ALPHA_TEST, OCCLUSION (0 no third target, 1 from map C, 2 none on this material,
-// 3 from the third channel of map B, where gpu_scene packs it: the normal's z follows from x and y).
+// Definitions: GENERAL, ALPHA_TEST, OCCLUSION (gbuffer/fetch.glsl; 0: no third target).
 #include "shading/bridge.h"
 #include "shading/constants.h"
+#include "shading/rungs.h"
 #include "shading/roughness.h"
 #include "shading/normals.h"
 #include "shading/albedo.h"
 #include "interface/layout.h"
-#include "gbuffer/material.glsl"
-
-layout(binding = UNIT_MAP_A) uniform sampler2D mapA;
-layout(binding = UNIT_MAP_B) uniform sampler2D mapB;
-#if OCCLUSION == 1 || ALPHA_TEST
-layout(binding = UNIT_MAP_C) uniform sampler2D mapC;
-#endif
-#if GENERAL
-layout(binding = UNIT_METAL_ROUGH) uniform sampler2D mapMetalRough;
-#endif
+#include "gbuffer/fetch.glsl"
 
 layout(location = 0) out vec4 outAlbedoSubstance;
 layout(location = 1) out vec4 outNormalRoughness;
@@ -24,58 +15,11 @@ layout(location = 1) out vec4 outNormalRoughness;
 layout(location = 2) out float outOcclusion;
 #endif
 
-// The normal map's direction in camera-relative world space, from the interpolated frame. Without a tangent (zero) only the normal is left; where even that
-// vanishes the octahedral code stands for +z. Back faces see the whole frame reversed.
-vec3 shadingNormal(vec3 mapped) {
-  vec3 b = cross(worldNormal, worldTangent.xyz) * worldTangent.w;
-  vec3 m = worldTangent.xyz * mapped.x + b * mapped.y + worldNormal * mapped.z;
-  float m2 = dot(m, m);
-  m = m2 > 1e-12 ? m : worldNormal;
-  return gl_FrontFacing ? m : -m;
-}
-
 void main() {
-  vec4 a = texture(mapA, mapUv(0));
-  vec4 b = texture(mapB, mapUv(1));
-  vec3 albedo = a.rgb * material.albedo.rgb;
-  float code = a.a * material.params.x + material.params.y;
-  float roughness = b.a * material.params.z;
-#if GENERAL
-  if (material.more.z > 0.5) albedo *= vertexColor.rgb;
-  if (material.more.w > 0.5) {
-    vec4 mr = texture(mapMetalRough, mapUv(3));
-    // Below 0.01 it is plain plastic, as encodeMetalness has it. Map B's alpha holds only the spread of its normals.
-    float m = mr.b * material.more.x;
-    code = m >= 0.01 ? 0.4 + 0.6 * m : 1.0 / 3.0;
-    float rough = mr.g * material.params.z;
-    float spread = material.more.w < 1.5 ? b.a : 0.0;
-    float alpha2 = rough * rough * rough * rough + spread * spread * spread * spread;
-    roughness = sqrt(sqrt(alpha2));
-  }
-#endif
-#if OCCLUSION == 1 || ALPHA_TEST
-  vec2 c = texture(mapC, mapUv(2)).rg;
-#endif
-#if ALPHA_TEST
-  float opacity = c.g * material.albedo.a;
-#if GENERAL
-  if (material.more.z > 0.5) opacity *= vertexColor.a;
-#endif
-  if (opacity < material.emission.w) discard;
-#endif
-  // 128 is zero: 8-bit normal maps hold flat as (128, 128, 255).
-  vec3 mapped = b.rgb * (255.0 / 127.0) - vec3(128.0 / 127.0);
-#if OCCLUSION == 3
-  mapped.z = sqrt(max(1.0 - mapped.x * mapped.x - mapped.y * mapped.y, 0.0));
-#endif
-  float r = clamp(roughness, BURNISH_ROUGHNESS_MIN, 1.0);
-  outAlbedoSubstance = vec4(encodeAlbedo(albedo), code);
-  outNormalRoughness = vec4(packNormal(shadingNormal(mapped)), encodeAlpha(alphaFromRoughness(r)));
-#if OCCLUSION == 1
-  outOcclusion = 1.0 + material.params.w * (c.r - 1.0);
-#elif OCCLUSION == 3
-  outOcclusion = 1.0 + material.params.w * (b.b - 1.0);
-#elif OCCLUSION == 2
-  outOcclusion = 1.0;
+  Fetched f = fetchMaterial();
+  outAlbedoSubstance = vec4(encodeAlbedo(f.albedo), f.code);
+  outNormalRoughness = vec4(packNormal(f.normal), encodeAlpha(alphaFromRoughness(f.roughness)));
+#if OCCLUSION
+  outOcclusion = f.occlusion;
 #endif
 }

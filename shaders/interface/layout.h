@@ -22,6 +22,7 @@
 #define UNIT_LIGHTS 6
 #define UNIT_LIGHT_LISTS 7
 #define UNIT_LIGHT_BUFFER 8
+#define UNIT_FORWARD_ENVIRONMENT 8  // unit 4 is the emissive map's on the forward path
 #define UNIT_EXPOSURE 9
 
 // Vertex attributes
@@ -43,7 +44,7 @@ struct FrameData {
   vec4 depthParams;      // perspective: w = x / (z + y); orthographic: w = x - z * y
   vec4 exposure;         // x pre-exposure (what the light buffer holds is radiance times this), y its inverse, z fixed display exposure, w light buffer's limit
   vec4 eye;              // xyz world position of the eye (m), for debug views only
-  vec4 environment;      // x last level of the prefiltered cube
+  vec4 environment;      // x last level of the prefiltered cube; y number of point and spot lights (forward path)
   vec4 background;       // rgb pre-exposed background colour; w scale of the environment cube
   ivec4 viewport;        // x, y, width, height in pixels
   vec4 irradiance[9];    // pre-exposed irradiance/pi of the surroundings, SH L2 with all constants folded in (shading/environment.h)
@@ -63,5 +64,7 @@ struct MaterialData {
   vec4 emission;    // rgb pre-exposure not applied, cd/m²; w alpha cutoff
   vec4 more;        // x metalness factor (metal-rough kept apart), y 1 when unlit, z 1 when vertex colour counts, w 1 when metal-rough is kept apart, 2 when there is no map B beside it
   vec4 uv[10];      // two rows for each of A, B, C, metal-rough, emissive: u' = dot(row.xyz, (u, v, 1)); row.w of the first: uv set
+  vec4 conductorEta;  // rgb index of a named conductor, 0 elsewhere; w anisotropy (forward path)
+  vec4 conductorK;    // rgb its extinction; w anisotropy's rotation, radians
 };
 #endif

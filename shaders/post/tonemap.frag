@@ -1,6 +1,7 @@
 // Develops the light buffer: exposure, tone curve, sRGB. Definitions: TONEMAP (0 none, 1 Neutral, 2 AgX, 3 ACES), AUTO_EXPOSURE, LINEAR (1: radiance as it is, in cd/m²),
 // HOST_DEPTH (1: pixels that the host's own geometry covers are left alone).
 #include "shading/bridge.h"
+#include "shading/constants.h"
 #include "shading/tonemap.h"
 #include "interface/layout.h"
 layout(std140, binding = BINDING_FRAME) uniform Frame { FrameData frame; };

@@ -2,5 +2,5 @@
 // the worst error is 0.0039 against 0.0045), without the power function that a
 // software renderer pays on every write and read.
 
-FN vec3 encodeAlbedo(vec3 c) { return sqrt(clamp(c, vec3(R(0.0)), vec3(R(1.0)))); }
+FN vec3 encodeAlbedo(vec3 c) { return vec3(sqrt(unitClamp(c.x)), sqrt(unitClamp(c.y)), sqrt(unitClamp(c.z))); }
 FN vec3 decodeAlbedo(vec3 e) { return e * e; }

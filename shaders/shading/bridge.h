@@ -1,7 +1,8 @@
 // The bridge: what lets one text be GLSL 4.50, C++ in float and C++ in double.
 // GLSL entry points include this first, then the terms that they use. C++ includes reference/shading.h, which wraps all terms in the namespaces
 // burnish::shading::f32 and f64. Rules for the text: no swizzles, no textures, no globals, literals as R(0.5), out parameters as OUT(T),
-// functions marked FN; vectors are built by name (vec3(x, y, z)) and read by member.
+// functions marked FN; vectors are built by name (vec3(x, y, z)) and read by member. Epsilons, clamps and saturates that only guard the arithmetic are
+// declared in constants.h (tests/layering enforces it).
 #ifndef BURNISH_BRIDGE
 #define BURNISH_BRIDGE
 #ifdef __cplusplus
@@ -22,4 +23,6 @@ float scaleToOne(float u, out float e) {
   return intBitsToFloat(0x3f800000 - (k << 23));
 }
 #endif
+// What a guard makes of a value, and the value without it: the guard ledger (engine/stability) compiles the text once more for each guard with that one taken out.
+#define GUARDED(number, with, without) (with)
 #endif

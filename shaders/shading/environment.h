@@ -4,17 +4,45 @@
 FN real environmentLevel(real roughness, real last) { return last * roughness * (R(1.5) - R(0.5) * roughness); }
 FN real environmentRoughness(real level, real last) { return R(1.5) - sqrt(R(2.25) - R(2.0) * level / last); }
 
-// Where the DFG table of 64² texels holds (n·v, perceptual roughness): its first and last texels' centres stand for 0 and 1.
-FN vec2 dfgCoordinate(real nov, real roughness) { return vec2(nov, roughness) * R(63.0 / 64.0) + vec2(R(0.5 / 64.0)); }
-
 // The real SH basis up to band 2 in the order (0,0) (1,-1) (1,0) (1,1) (2,-2) (2,-1) (2,0) (2,1) (2,2), without its constants: they are folded into the
-// coefficients together with the cosine lobe (Ramamoorthi and Hanrahan 2001, eq. 13).
-FN vec3 irradianceSh(vec3 n, vec3 c0, vec3 c1, vec3 c2, vec3 c3, vec3 c4, vec3 c5, vec3 c6, vec3 c7, vec3 c8) {
-  return c0 + c1 * n.y + c2 * n.z + c3 * n.x + c4 * (n.x * n.y) + c5 * (n.y * n.z) + c6 * (R(3.0) * n.z * n.z - R(1.0)) + c7 * (n.x * n.z) +
-         c8 * (n.x * n.x - n.y * n.y);
+// coefficients together with the cosine lobe (Ramamoorthi and Hanrahan 2001, eq. 13). The lower rungs leave bands out.
+FN vec3 irradianceSh(vec3 n, vec3 c0, vec3 c1, vec3 c2, vec3 c3, vec3 c4, vec3 c5, vec3 c6, vec3 c7, vec3 c8, int rung) {
+  if (rung == AMBIENT_NONE) return vec3(R(0.0));
+  if (rung == AMBIENT_CONSTANT) return c0;
+  vec3 linear = c0 + c1 * n.y + c2 * n.z + c3 * n.x;
+  if (rung == AMBIENT_SH_L1) return linear;
+  return linear + c4 * (n.x * n.y) + c5 * (n.y * n.z) + c6 * (R(3.0) * n.z * n.z - R(1.0)) + c7 * (n.x * n.z) + c8 * (n.x * n.x - n.y * n.y);
 }
 
-// Specular occlusion from ambient occlusion: Lagarde and de Rousiers 2014, "Moving Frostbite to Physically Based Rendering", listing 26, on alpha (not r).
-FN real specularOcclusion(real nov, real ao, real alpha) {
-  return clamp(pow(max(nov + ao, R(1e-4)), exp2(R(-16.0) * alpha - R(1.0))) - R(1.0) + ao, R(0.0), R(1.0));
+// The share of a prefiltered reflection that the surface reflects, for one channel, by the rung: Schlick's F(n·v); the same held down on rough surfaces,
+// F0 + (max(1 - r, F0) - F0)(1 - n·v)^5 (Lagarde 2011, "Adopting a physically based shading model"); the lobe's own albedo F0 · scale + bias (Karis 2013, eq. 8).
+FN real environmentReflectance(Surface m, real f0, int rung, int fresnel) {
+  if (rung == ENVIRONMENT_SPECULAR_NONE) return R(0.0);
+  if (rung == ENVIRONMENT_SPECULAR_SCHLICK) return f0 + (R(1.0) - f0) * schlickWeight(m.nov);
+  if (rung == ENVIRONMENT_SPECULAR_ROUGH_SCHLICK) return f0 + (max(R(1.0) - sqrt(unitClamp(m.alpha)), f0) - f0) * schlickWeight(m.nov);  // model: Lagarde's maximum
+  return lobeAlbedo(f0, m.dfg, fresnel);
+}
+FN vec3 environmentReflectance(Surface m, int rung, int fresnel) {
+  return vec3(environmentReflectance(m, m.f0.x, rung, fresnel), environmentReflectance(m, m.f0.y, rung, fresnel), environmentReflectance(m, m.f0.z, rung, fresnel));
+}
+
+// What multiple scattering adds to it: lit by the ambient light, since it is as wide as diffuse.
+FN vec3 environmentScattered(Surface m, Rungs k) {
+  if (k.compensation == COMPENSATION_NONE) return vec3(R(0.0));
+  return vec3(scatteredShare(m.f0.x, m.dfgMean, k.fresnel), scatteredShare(m.f0.y, m.dfgMean, k.fresnel), scatteredShare(m.f0.z, m.dfgMean, k.fresnel)) * lobeLoss(m.dfg);
+}
+
+// What is left for ambient diffuse light, by the diffuse rung: all of it (Lambert), or what the dielectric part does not reflect.
+FN real ambientShare(Surface m, int rung, Rungs k) {
+  if (k.diffuse == DIFFUSE_LAMBERT) return R(1.0);
+  if (k.diffuse == DIFFUSE_COUPLED || k.diffuse == DIFFUSE_OREN_NAYAR_ENERGY) return R(1.0) - specularAlbedo(m.dielectric, m.dfg, m.dfgMean, k);
+  return unitClamp(R(1.0) - environmentReflectance(m, m.dielectric, rung, k.fresnel));
+}
+
+// Specular occlusion from ambient occlusion, by the rung: none, the ambient occlusion itself, or Lagarde and de Rousiers 2014, "Moving Frostbite to Physically Based
+// Rendering", listing 26, on alpha (not r).
+FN real specularOcclusion(real nov, real ao, real alpha, int rung) {
+  if (rung == SPECULAR_OCCLUSION_NONE) return R(1.0);
+  if (rung == SPECULAR_OCCLUSION_AO) return unitClamp(ao);
+  return unitClamp(pow(max(unitClamp(nov) + unitClamp(ao), BURNISH_GUARD_OCCLUSION), exp2(R(-16.0) * unitClamp(alpha) - R(1.0))) - R(1.0) + unitClamp(ao));
 }

@@ -5,7 +5,7 @@ FN real signNotZero(real x) { return x >= R(0.0) ? R(1.0) : R(-1.0); }
 // Vector of any length to the square [-1,1]². A zero vector gives (0, 0), which decodes to +z.
 FN vec2 octahedralEncode(vec3 n) {
   real s = abs(n.x) + abs(n.y) + abs(n.z);
-  real k = R(1.0) / max(s, BURNISH_GUARD_LOG);
+  real k = R(1.0) / max(s, BURNISH_GUARD_LENGTH);
   real x = n.x * k;
   real y = n.y * k;
   if (n.z < R(0.0)) return vec2((R(1.0) - abs(y)) * signNotZero(x), (R(1.0) - abs(x)) * signNotZero(y));
@@ -14,7 +14,7 @@ FN vec2 octahedralEncode(vec3 n) {
 
 FN vec3 octahedralDecode(vec2 e) {
   real z = R(1.0) - abs(e.x) - abs(e.y);
-  real t = max(-z, R(0.0));
+  real t = notNegative(-z);
   real x = e.x + (e.x >= R(0.0) ? -t : t);
   real y = e.y + (e.y >= R(0.0) ? -t : t);
   return normalize(vec3(x, y, z));

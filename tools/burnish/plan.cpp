@@ -82,9 +82,11 @@ int run(const PlanArguments& arguments) {
   else if (auto found = burnish::queryCapabilities((*context)->procAddress())) capabilities = std::move(*found);
   else warnings.push_back(found.error().message() + "; the plan is for " + capabilities.renderer);
 
+  const burnish::Quality quality = arguments.scene.quality();
+  for (std::string& text : burnish::idleRungs(quality)) warnings.push_back("quality: " + std::move(text));
   burnish::PlanOptions options;
   options.size = arguments.scene.size;
-  const auto plan = burnish::makePlan(loaded->scene, {&loaded->view, 1}, arguments.scene.quality, capabilities, options);
+  const auto plan = burnish::makePlan(loaded->scene, {&loaded->view, 1}, quality, capabilities, options);
   printWarnings(warnings);
   if (!arguments.json.empty())
     if (auto written = writeJson(arguments.json, toJson(plan)); !written) return printError(written.error());

@@ -20,7 +20,7 @@ struct RenderArguments {
   std::string output, json;
   burnish::DebugView debugView = burnish::DebugView::Final;
   int frames = 0;  ///< 0: not asked for
-  bool profile = false;
+  bool profile = false, listRungs = false;
 
   [[nodiscard]] bool timed() const { return frames > 0 || profile || !json.empty(); }
   [[nodiscard]] burnish::Output outputKind() const {
@@ -58,7 +58,7 @@ Result<Session> open(const RenderArguments& arguments) {
 Result<burnish::FrameStats> drawFrame(Session& session, const LoadedScene& loaded, const RenderArguments& arguments,
                                       const burnish::RenderRequest& request, RenderReport* report) {
   const FrameClock clock;
-  auto stats = session.renderer->render(loaded.scene, {&loaded.view, 1}, session.target->target(), arguments.scene.quality, request);
+  auto stats = session.renderer->render(loaded.scene, {&loaded.view, 1}, session.target->target(), arguments.scene.quality(), request);
   session.finish();
   if (!stats) return fail(stats.error());
   if (report) report->addFrame(clock, request.timing == burnish::TimingMode::Off ? nullptr : &*stats);
@@ -104,11 +104,26 @@ Result<burnish::Image> draw(Session& session, const LoadedScene& loaded, const R
 std::string development(const RenderArguments& arguments, float exposureEv) {
   if (arguments.debugView != burnish::DebugView::Final) return fmt::format("view {}", burnish::debugViewNames()[std::size_t(arguments.debugView)]);
   if (arguments.outputKind() == burnish::Output::Linear) return "linear";
-  if (arguments.scene.quality.exposureEv) return fmt::format("EV100 {:.2f}", exposureEv);
+  if (arguments.scene.development.exposureEv) return fmt::format("EV100 {:.2f}", exposureEv);
   return exposureEv == 0 ? "automatic exposure" : fmt::format("EV100 {:.2f}, automatic", exposureEv);
 }
 
+void listRungs() {
+  const burnish::Quality usual;
+  for (std::size_t t = 0; t < burnish::terms().size(); ++t) {
+    const burnish::Term& term = burnish::terms()[t];
+    fmt::print("{}: {}\n", term.name, term.what);
+    for (std::size_t r = 0; r < term.rungs.size(); ++r) {
+      const burnish::Rung& rung = term.rungs[r];
+      fmt::print("  {} {:<24} {}{}{}\n", burnish::rungOf(usual, t) == r ? '*' : ' ', rung.name, rung.what, rung.forwardOnly ? " [forward only]" : "",
+                 rung.source.empty() ? "" : fmt::format(" ({})", rung.source));
+    }
+  }
+  fmt::print("* in force by default. Presets: {}. Set one with --set TERM=RUNG.\n", fmt::join(burnish::presetNames(), ", "));
+}
+
 int run(const RenderArguments& arguments) {
+  if (arguments.listRungs) return listRungs(), kOk;
   for (const std::string& file : {arguments.output, arguments.json})
     if (!file.empty() && file != "-")
       if (auto good = checkOutput(file); !good) return printError(good.error());
@@ -147,7 +162,7 @@ int run(const RenderArguments& arguments) {
 Command addRender(CLI::App& program) {
   auto arguments = std::make_shared<RenderArguments>();
   CLI::App* app = program.add_subcommand("render", "One picture of a scene, headless");
-  arguments->scene.addTo(*app);
+  arguments->scene.addTo(*app, false);
   app->add_option_function<std::string>(
          "-o,--output",
          [arguments](const std::string& text) {
@@ -156,8 +171,7 @@ Command addRender(CLI::App& program) {
            arguments->output = text;
          },
          "the picture: .png as shown, .exr linear in cd/m² and untouched by exposure")
-      ->type_name("IMG.png|.exr")
-      ->required();
+      ->type_name("IMG.png|.exr");
   const auto views = burnish::debugViewNames();
   addChoice(*app, "--view", {views.begin(), views.end()}, [arguments](std::size_t i) { arguments->debugView = burnish::DebugView(i); }, "what to draw");
   app->add_option("--frames", arguments->frames, "draw N frames and report median and p95 times; the last one is the picture, two unmeasured ones go first")
@@ -165,7 +179,15 @@ Command addRender(CLI::App& program) {
       ->check(CLI::Range(1, 100000));
   app->add_flag("--profile", arguments->profile, "finish between passes: per-pass times that are right on software renderers too");
   app->add_option("--json", arguments->json, "write times, effects, programs and warnings as JSON (- for standard output)")->type_name("FILE");
-  return {app, [arguments] { return run(*arguments); }};
+  app->add_flag("--list-rungs", arguments->listRungs, "list every term with its rungs and their sources, and do nothing else");
+  // SCENE and -o are asked for here, since --list-rungs goes without.
+  return {app, [arguments] {
+            if (!arguments->listRungs && (arguments->scene.scene.empty() || arguments->output.empty())) {
+              fmt::print(stderr, "burnish: {} is required: see 'burnish render --help'\n", arguments->scene.scene.empty() ? "SCENE" : "--output");
+              return int(kUsage);
+            }
+            return run(*arguments);
+          }};
 }
 
 }  // namespace cli

@@ -78,6 +78,20 @@ Cameras camerasOf(const burnish::Scene& scene) {
   return cameras;
 }
 
+/// For an unknown term, or an unknown rung of a known one.
+std::string didYouMeanRung(const std::string& term, const std::string& rung) {
+  std::vector<std::string> names;
+  for (const burnish::Term& t : burnish::terms()) {
+    if (t.name == term) {
+      names.clear();
+      for (const burnish::Rung& r : t.rungs) names.emplace_back(r.name);
+      return didYouMean(rung, names);
+    }
+    names.emplace_back(t.name);
+  }
+  return didYouMean(term, names);
+}
+
 Result<std::size_t> findCamera(const Cameras& cameras, const std::string& wanted, const std::string& file) {
   for (std::size_t i = 0; i < cameras.names.size(); ++i)
     if (cameras.names[i] == wanted) return i;
@@ -131,8 +145,8 @@ CLI::Option* addChoice(CLI::App& app, const std::string& flag, std::vector<std::
       ->type_name("NAME");
 }
 
-void SceneOptions::addTo(CLI::App& app) {
-  app.add_option("SCENE", scene, "a .gltf or .glb file, or the name of a sample")->required()->type_name("");
+void SceneOptions::addTo(CLI::App& app, bool required) {
+  app.add_option("SCENE", scene, "a .gltf or .glb file, or the name of a sample")->required(required)->type_name("");
   CLI::Option* byName = app.add_option("--camera", camera, "a camera of the scene; without one: the first, else a view of everything")->type_name("NAME|INDEX");
   CLI::Option* from = addParsed(app, "--eye", "X,Y,Z", "where the eye is, metres", eye, parseVector, "a position: give X,Y,Z");
   CLI::Option* to = addParsed(app, "--target", "X,Y,Z", "what it looks at", target, parseVector, "a position: give X,Y,Z");
@@ -154,11 +168,31 @@ void SceneOptions::addTo(CLI::App& app) {
          [this](const std::string& text) {
            const auto ev = parseNumber(text);
            if (text != "auto" && (!ev || std::abs(*ev) > 60)) throw CLI::ValidationError("--exposure", fmt::format("'{}' is not an exposure: give EV100 or auto", text));
-           quality.exposureEv = text == "auto" ? std::nullopt : std::optional(float(*ev));
+           development.exposureEv = text == "auto" ? std::nullopt : std::optional(float(*ev));
          },
          "EV100, or auto (the default): from this picture alone")
       ->type_name("EV|auto");
-  addChoice(app, "--tonemap", texts(burnish::toneMapNames()), [this](std::size_t i) { quality.toneMap = burnish::ToneMap(i); }, "how radiance becomes colour");
+  addChoice(app, "--quality", texts(burnish::presetNames()), [this](std::size_t i) { preset = std::string(burnish::presetNames()[i]); }, "a preset of rungs");
+  app.add_option_function<std::vector<std::string>>(
+         "--set",
+         [this](const std::vector<std::string>& texts) {
+           burnish::Quality checked;
+           for (const std::string& text : texts) {
+             const std::size_t equals = text.find('=');
+             if (equals == std::string::npos) throw CLI::ValidationError("--set", fmt::format("'{}' is not TERM=RUNG; 'burnish render --list-rungs' lists them", text));
+             if (const auto set = burnish::setRung(checked, text.substr(0, equals), text.substr(equals + 1)); !set) {
+               const auto& e = set.error();
+               throw CLI::ValidationError("--set", fmt::format("{} {}{}: {}", e.place, e.what, didYouMeanRung(text.substr(0, equals), text.substr(equals + 1)), e.remedy));
+             }
+             sets.emplace_back(text.substr(0, equals), text.substr(equals + 1));
+           }
+         },
+         "a rung of a term, over the preset; repeatable (burnish render --list-rungs)")
+      ->type_name("TERM=RUNG")
+      ->type_size(1)
+      ->allow_extra_args(false)
+      ->take_all();
+  addChoice(app, "--tonemap", texts(burnish::toneMapNames()), [this](std::size_t i) { development.toneMap = burnish::ToneMap(i); }, "how radiance becomes colour");
   addChoice(app, "--backend", {"egl", "osmesa", "glfw"}, [this](std::size_t i) { backend = burnish::Backend(i); }, "where OpenGL comes from");
   addParsed(
       app, "--threads", "N", "at most N threads of the software renderer and N picture decoders", threads,
@@ -167,6 +201,14 @@ void SceneOptions::addTo(CLI::App& app) {
         return value && *value >= 1 && *value <= 1024 && *value == std::floor(*value) ? std::optional(int(*value)) : std::nullopt;
       },
       "a number of threads from 1 to 1024");
+}
+
+burnish::Quality SceneOptions::quality() const {
+  burnish::Quality q = development;
+  // Names were checked when they were parsed.
+  (void)burnish::setPreset(q, preset);
+  for (const auto& [term, rung] : sets) (void)burnish::setRung(q, term, rung);
+  return q;
 }
 
 Result<LoadedScene> loadScene(const SceneOptions& options, Progress& progress) {

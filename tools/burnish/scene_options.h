@@ -15,12 +15,17 @@ struct SceneOptions {
   std::optional<glm::dvec3> eye, target, up;
   std::optional<double> fovDegrees;
   glm::ivec2 size{1280, 720};
-  burnish::Quality quality;
+  std::string preset = "default";
+  std::vector<std::pair<std::string, std::string>> sets;  ///< term and rung, in the order given
+  burnish::Quality development;                           ///< tone map and exposure
   burnish::Backend backend = burnish::Backend::Egl;
   int threads = 0;  ///< 0: as many as there are
 
   /// Adds SCENE and its options. Values are checked while parsing: what is no number, size or known name is a usage error.
-  void addTo(CLI::App& app);
+  /// `required`: parsing fails without a SCENE.
+  void addTo(CLI::App& app, bool required = true);
+  /// The preset with what --set changed, and the development.
+  [[nodiscard]] burnish::Quality quality() const;
 };
 
 struct LoadedScene {

@@ -1,29 +1,93 @@
-// Quality: which rung of each term is in force, and how the picture is developed. Rungs are specialised into programs when they are linked.
+// Quality: which rung of each term is in force, and how the picture is developed. Rungs are specialised into programs when they are linked: changing one
+// recompiles the programs that it is part of and nothing else.
 #pragma once
 #include <burnish/result.h>
 
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace burnish {
 
 enum class ToneMap : std::uint8_t { None, Neutral, AgX, Aces };  ///< None clips; Neutral is Khronos PBR Neutral; Aces is the fit by Stephen Hill
-enum class Geometry : std::uint8_t { Void, Kelemen };            ///< visibility term of the specular lobe
-enum class Lobe : std::uint8_t { Exp2, Stable };                 ///< evaluation of (n·h)^p
-enum class EnvironmentSpecular : std::uint8_t { None, Dfg };     ///< reflection of the surroundings
-enum class Occlusion : std::uint8_t { None, Baked };             ///< ambient occlusion from map C, with specular occlusion
+
+// The rungs of each term, cheap to exact; terms() below says what each is and where it comes from. docs/shading.md has the equations.
+
+enum class Specular : std::uint8_t { Microfacet, Phong, BlinnPhong, ModifiedPhong, MaxPhong, NormalizedBlinnPhong, CookTorrance, Ward, WardAnisotropic, WardBounded, GgxSmith };
+enum class Distribution : std::uint8_t { BlinnPhong, Beckmann, Ggx };
+enum class Geometry : std::uint8_t { Void, Kelemen, SchlickSmith, Smith, VCavity };
+enum class Normalization : std::uint8_t { None, LinearFit, LinearFit8, Plus2, Plus8, Exact };
+enum class Lobe : std::uint8_t { Pow, Exp2, Stable };
+enum class Fresnel : std::uint8_t { None, Schlick, SphericalGaussian, Dielectric, Conductor };
+enum class Diffuse : std::uint8_t { Lambert, LambertFresnel, Coupled, OrenNayarQualitative, OrenNayar, OrenNayarEnergy };
+enum class Compensation : std::uint8_t { None, MultipleScattering };
+enum class EnvironmentSpecular : std::uint8_t { None, Schlick, RoughSchlick, Dfg, Sampled };
+enum class Ambient : std::uint8_t { None, Constant, ShL1, ShL2 };
+enum class Occlusion : std::uint8_t { None, Baked };
+enum class SpecularOcclusion : std::uint8_t { None, Ao, Lagarde };
+enum class DirectOcclusion : std::uint8_t { None, Specular };
+enum class Path : std::uint8_t { Deferred, Forward };
 
 struct Quality {
+  Specular specular = Specular::Microfacet;          ///< the next four count for Microfacet alone; Lobe for every power of a cosine
+  Distribution distribution = Distribution::BlinnPhong;
   Geometry geometry = Geometry::Kelemen;
+  Normalization normalization = Normalization::Exact;  ///< with Geometry::Void and Distribution::BlinnPhong; elsewhere D has its own
   Lobe lobe = Lobe::Stable;
+  Fresnel fresnel = Fresnel::Schlick;
+  Diffuse diffuse = Diffuse::LambertFresnel;
+  Compensation compensation = Compensation::None;
   EnvironmentSpecular environmentSpecular = EnvironmentSpecular::Dfg;
+  Ambient ambient = Ambient::ShL2;
   Occlusion occlusion = Occlusion::Baked;
+  SpecularOcclusion specularOcclusion = SpecularOcclusion::Lagarde;
+  DirectOcclusion directOcclusion = DirectOcclusion::None;
+  /// Forward shades each surface where it is drawn, with every light: slow, unquantised, the reference of the deferred path. Rungs that the G-buffer cannot feed take it by themselves.
+  Path path = Path::Deferred;
+
   ToneMap toneMap = ToneMap::Neutral;
   std::optional<float> exposureEv;  ///< EV100; empty: automatic from this picture alone
   /// Irradiance (lux) under which a light without a range is cut off; the loss is reported.
   float lightThreshold = 0.02f;
+  friend bool operator==(const Quality&, const Quality&) = default;
 };
+
+/// One implementation of a term.
+struct Rung {
+  std::string_view name;    ///< as --set spells it
+  std::string_view what;    ///< one line
+  std::string_view source;  ///< paper and equation
+  bool forwardOnly = false; ///< needs what the G-buffer does not hold: the frame takes Path::Forward
+};
+/// One function of the lighting equation and its rungs, in the order of its enum (cheap to exact).
+struct Term {
+  std::string_view name;  ///< as --set spells it
+  std::string_view what;
+  std::span<const Rung> rungs;
+};
+
+/// Every term. The index of a term is what rungOf and setRung take.
+BURNISH_API std::span<const Term> terms();
+/// The rung of a term that is in force; term < terms().size().
+BURNISH_API std::size_t rungOf(const Quality& quality, std::size_t term);
+/// Puts a rung in force; term and rung are indices into terms().
+BURNISH_API void setRung(Quality& quality, std::size_t term, std::size_t rung);
+/// By name, "fresnel", "schlick". Errors list what there is.
+BURNISH_API Result<void> setRung(Quality& quality, std::string_view term, std::string_view rung);
+
+/// seed: the talk that the project grew from (void geometry, (p + 8)/8 pi, Schlick, Lambert, occlusion on direct specular). default: Quality{}. exact: the top rung of each term.
+/// Tone map, exposure and light threshold are no part of a preset.
+BURNISH_API std::span<const std::string_view> presetNames();
+/// Puts a preset's rungs in force. Errors list the names.
+BURNISH_API Result<void> setPreset(Quality& quality, std::string_view name);
+
+/// The first rung in force that the G-buffer cannot feed, as "term=rung"; empty when there is none.
+BURNISH_API std::string forwardOnlyRung(const Quality& quality);
+/// What the settings ask for that has no effect beside the others ("normalization=plus-8 has no effect with geometry=kelemen"), one text each.
+BURNISH_API std::vector<std::string> idleRungs(const Quality& quality);
 
 /// Names as the command line spells them, in the order of the enums.
 BURNISH_API std::span<const std::string_view> toneMapNames();

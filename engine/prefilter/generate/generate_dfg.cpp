@@ -1,29 +1,37 @@
-// Build step: tabulates the DFG of each geometry rung into a C++ file. Usage: generate_dfg OUT.cpp
+// Build step: tabulates one DFG into a C++ file. Usage: generate_dfg INDEX OUT.cpp
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <fstream>
+#include <vector>
 
 #include "prefilter/dfg.h"
 
 using namespace burnish;
 
 int main(int argc, char** argv) {
-  if (argc != 2) return std::fputs("usage: generate_dfg OUT.cpp\n", stderr), 2;
-  std::ofstream out(argv[1]);
-  out << "#include \"prefilter/dfg.h\"\n\nnamespace burnish::prefilter {\nnamespace {\n";
-  const char* names[] = {"kVoid", "kKelemen"};
-  for (Geometry g : {Geometry::Void, Geometry::Kelemen}) {
-    out << "constexpr std::uint16_t " << names[int(g)] << "[] = {\n";
-    for (int j = 0; j < prefilter::kDfgSize; ++j) {
-      for (int i = 0; i < prefilter::kDfgSize; ++i) {
-        const glm::dvec2 e = prefilter::integrateDfg(g, i / double(prefilter::kDfgSize - 1), j / double(prefilter::kDfgSize - 1));
-        for (int k = 0; k < 2; ++k) out << std::lround(std::fmin(std::fmax(e[k], 0.0), 1.0) * 65535) << ',';
-      }
-      out << '\n';
-    }
-    out << "};\n";
+  const int index = argc == 3 ? std::atoi(argv[1]) : -1;
+  if (index < 0 || index >= prefilter::kDfgTables) return std::fputs("usage: generate_dfg INDEX OUT.cpp\n", stderr), 2;
+  const shading::Rungs rungs = prefilter::dfgRungs(index);
+  // V-cavities bend their lobe sharply where the smaller cosine begins to mask: three times the columns.
+  const bool sharp = rungs.specular == SPECULAR_MICROFACET && rungs.geometry == GEOMETRY_V_CAVITY;
+  const int columns = sharp ? 384 : 128, width = columns + 2, height = 160;
+  std::vector<glm::dvec2> table;
+  for (int j = 0; j < height; ++j) {
+    const double alpha = prefilter::alphaOfRow(j / double(height - 1));
+    for (int i = 0; i < columns; ++i) table.push_back(prefilter::integrateDfg(rungs, prefilter::cosineOfColumn(i / double(columns - 1)), alpha));
+    table.insert(table.end(), 2, prefilter::integrateDfgMean(rungs, alpha));
   }
-  out << "}  // namespace\nstd::span<const std::uint16_t> dfgTable(Geometry g) { return g == Geometry::Void ? std::span(kVoid) : std::span(kKelemen); }\n}  // namespace burnish::prefilter\n";
+  double scale = 1;
+  for (const glm::dvec2& e : table) scale = std::max({scale, e.x, e.y});
+  std::ofstream out(argv[2]);
+  out << "#include \"prefilter/dfg.h\"\n\nnamespace burnish::prefilter {\nnamespace {\nconstexpr std::uint16_t kTexels[] = {";
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    if (i % std::size_t(width) == 0) out << '\n';
+    for (int k = 0; k < 2; ++k) out << std::lround(std::clamp(table[i][k] / scale, 0.0, 1.0) * 65535) << ',';
+  }
+  out << "\n};\n}  // namespace\nextern const DfgTable kDfg" << index << ";\nconst DfgTable kDfg" << index << "{" << width << ", " << height << ", float(" << scale << "), kTexels};\n}  // namespace burnish::prefilter\n";
   out.close();
   return out ? 0 : 1;
 }

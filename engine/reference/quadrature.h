@@ -1,0 +1,43 @@
+// Integrals over directions in double: what the directional albedo of a lobe, its reciprocity's counterpart and the DFG tables are made of.
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <glm/glm.hpp>
+#include <vector>
+
+namespace burnish::reference {
+
+/// Nodes and weights of Gauss and Legendre on [0, 1]. n >= 1.
+struct GaussRule {
+  std::vector<double> node, weight;
+  explicit GaussRule(int n);
+};
+
+/// Unit vector in the xz plane at cosine `nov` from +z (the normal).
+inline glm::dvec3 directionAt(double nov) { return {std::sqrt(std::max(1 - nov * nov, 0.0)), 0, nov}; }
+
+/// Nodes in polar angle (for each of up to two pieces) and in azimuth.
+struct Resolution {
+  int polar = 48, azimuth = 48;
+};
+
+/// ∫ f(l) dl over the upper hemisphere for a viewer at directionAt(nov), with the nodes where half vectors of a lobe of width alpha lie. f: symmetric about the xz plane,
+/// a double or a vector; exact at the horizon, where each ring of half vectors is cut. nov in (0, 1], alpha in (0, 1]. T(0) must be zero.
+template <class T, class F>
+T integrateHalf(double nov, double alpha, F&& f, const Resolution& resolution = {});
+
+/// The same with the nodes around the mirrored direction (Phong's lobes), of half-width `alpha` as integrateHalf's.
+template <class T, class F>
+T integrateMirror(double nov, double alpha, F&& f, const Resolution& resolution = {});
+
+/// ∫ f(l) dl over the upper hemisphere for smooth f (diffuse, distributions that fill it). Nodes uniform in cos² and azimuth.
+template <class T, class F>
+T integrateCosine(F&& f, const Resolution& resolution = {});
+
+/// 2 ∫ f(c) c dc over [0, 1]: the mean of a function of the cosine over the hemisphere, with nodes that are dense toward grazing.
+template <class T, class F>
+T hemisphereMean(F&& f, int nodes = 48);
+
+}  // namespace burnish::reference
+
+#include "reference/quadrature.inl"

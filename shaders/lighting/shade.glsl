@@ -1,0 +1,102 @@
+// Shading one surface with the rungs in force: what the deferred and the forward path share. The includer has included shading/bridge.h, shading/all.h and interface/layout.h and
+// declared `frame`; it defines ambientAt(normal) and lastLevel() before this file where ENVIRONMENT is 1.
+// Definitions: RUNG_* (plan/variants.cpp), ANISOTROPIC, DFG (1: the lobe's table is bound), DFG_WIDTH, DFG_HEIGHT, ENVIRONMENT (1: lit by the surroundings), OCCLUSION,
+// ENVIRONMENT_UNIT.
+
+const Rungs kRungs = Rungs(RUNG_SPECULAR, RUNG_DISTRIBUTION, RUNG_GEOMETRY, RUNG_NORMALIZATION, RUNG_LOBE, RUNG_FRESNEL, RUNG_DIFFUSE, RUNG_COMPENSATION, ANISOTROPIC);
+
+#if DFG
+layout(binding = UNIT_DFG) uniform sampler2D dfgTable;
+#define DFG_SIZE vec2(DFG_WIDTH, DFG_HEIGHT)
+#endif
+#if ENVIRONMENT && RUNG_ENVIRONMENT_SPECULAR != ENVIRONMENT_SPECULAR_NONE
+layout(binding = ENVIRONMENT_UNIT) uniform samplerCube environmentCube;
+#endif
+
+// Looks up what the surface's lobe reflects toward the eye and on the mean. Returns the table's row.
+float findEnergy(inout Surface m) {
+#if DFG
+  float row = dfgRow(m.alpha), scale = dfgScale(m.power, kRungs);
+  m.dfg = textureLod(dfgTable, dfgCoordinate(m.nov, row, DFG_SIZE), 0.0).rg * scale;
+  if (needsAlbedoTable(kRungs)) m.dfgMean = textureLod(dfgTable, dfgMeanCoordinate(row, DFG_SIZE), 0.0).rg * scale;
+  return row;
+#else
+  return 0.0;
+#endif
+}
+
+// Radiance for unit irradiance from direction l.
+vec3 shadeLight(Surface m, vec3 l, float row, float occlusion) {
+  vec2 dfg = vec2(0.0);
+#if DFG
+  if (needsAlbedoTable(kRungs)) dfg = textureLod(dfgTable, dfgCoordinate(dot(m.n, l), row, DFG_SIZE), 0.0).rg * dfgScale(m.power, kRungs);
+#endif
+#if RUNG_DIRECT_OCCLUSION == DIRECT_OCCLUSION_SPECULAR
+  vec3 diffuse, specular;
+  shadeParts(m, l, dfg, kRungs, diffuse, specular);
+  return diffuse + specular * occlusion;
+#else
+  return shadeDirection(m, l, dfg, kRungs);
+#endif
+}
+
+// Punctual light: position + 1/range^4, pre-exposed candela + bias (shading/light.h).
+vec3 punctual(Surface m, vec3 p, vec4 place, vec4 color, float row, float occlusion) {
+  vec3 l = place.xyz - p;
+  float d2 = max(dot(l, l), BURNISH_GUARD_DISTANCE2);
+  float inverse = inversesqrt(d2);
+  float e = distanceAttenuation(d2, inverse * inverse, place.w, color.w);
+  return shadeLight(m, l * inverse, row, occlusion) * (color.rgb * e);
+}
+
+#if ENVIRONMENT
+#if RUNG_ENVIRONMENT_SPECULAR == ENVIRONMENT_SPECULAR_SAMPLED
+#define SAMPLES 256
+// The lobe in force, sampled (Hammersley's points). Each sample reads the level whose lobe has the solid angle that the sample stands for, 1/(density · count), so that few do:
+// it adds 1/SAMPLES to the lobe's variance (Krivanek and Colbert 2008, "Real-time Shading with Filtered Importance Sampling").
+vec3 sampledReflection(Surface m) {
+  vec3 sum = vec3(0.0), t, b;
+  int family = lobeFamily(kRungs);
+  bool phong = family == LOBE_FAMILY_PHONG;
+  bool twoWidths = ANISOTROPIC == 1 && m.alphaX != m.alphaY && (RUNG_SPECULAR == SPECULAR_WARD_ANISOTROPIC || RUNG_SPECULAR == SPECULAR_WARD_BOUNDED);
+  vec3 axis = phong ? m.n * (2.0 * m.nov) - m.v : m.n;
+  basisFrom(axis, t, b);
+  if (twoWidths) {
+    t = m.t;
+    b = m.b;
+  }
+  for (int i = 0; i < SAMPLES; ++i) {
+    float u = (float(i) + 0.5) / float(SAMPLES), w = radicalInverse(i);
+    vec3 h = twoWidths ? sampleAnisotropic(u, w, m.alphaX, m.alphaY) : sampleLobe(u, w, m.alpha, family);
+    vec3 world = t * h.x + b * h.y + axis * h.z;
+    float voh = dot(m.v, world), sin2 = h.x * h.x + h.y * h.y;
+    vec3 l = phong ? world : world * (2.0 * voh) - m.v;
+    if (dot(m.n, l) <= 0.0 || voh <= 0.0 && !phong) continue;
+    float density = twoWidths ? D_beckmannAnisotropic(h.x, h.y, 1.0 - sin2, m.alphaX, m.alphaY) * h.z : lobeDensity(sin2, m.alpha, family);
+    if (!phong) density /= 4.0 * max(voh, 1e-4);
+    Angles a = anglesOf(m, l);
+    float level = environmentLevel(min(sqrt(sqrt(1.0 / (4.0 * BURNISH_PI * float(SAMPLES) * max(density, 1e-6)))), 1.0), lastLevel());
+    sum += textureLod(environmentCube, l, level).rgb * fresnelRung(m.f0, m.eta, m.k, a.loh, RUNG_FRESNEL) * (specularRung(m, a, kRungs) / max(density, 1e-6));
+  }
+  return sum * (frame.background.w / float(SAMPLES));
+}
+#endif
+
+// What the surface reflects of the surroundings.
+vec3 surroundings(Surface m, float occlusion) {
+  vec3 ambient = max(ambientAt(m.n), vec3(0.0));
+#if RUNG_ENVIRONMENT_SPECULAR == ENVIRONMENT_SPECULAR_NONE
+  vec3 specular = vec3(0.0);
+#elif RUNG_ENVIRONMENT_SPECULAR == ENVIRONMENT_SPECULAR_SAMPLED
+  vec3 specular = sampledReflection(m);
+#else
+  vec3 r = m.n * (2.0 * m.nov) - m.v;
+  vec3 specular = textureLod(environmentCube, r, environmentLevel(sqrt(m.alpha), lastLevel())).rgb * frame.background.w * environmentReflectance(m, RUNG_ENVIRONMENT_SPECULAR, RUNG_FRESNEL);
+#endif
+#if OCCLUSION
+  specular *= specularOcclusion(max(m.nov, BURNISH_GUARD_NOV), occlusion, m.alpha, RUNG_SPECULAR_OCCLUSION);
+  ambient *= occlusion;
+#endif
+  return specular + ambient * (m.diffuse * ambientShare(m, RUNG_ENVIRONMENT_SPECULAR, kRungs) + environmentScattered(m, kRungs));
+}
+#endif

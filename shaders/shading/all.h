@@ -1,0 +1,10 @@
+// The terms in the order of their dependence: what a lighting pass includes after bridge.h, and what reference/shading.h wraps.
+#include "shading/lobes.h"
+#include "shading/normals.h"
+#include "shading/albedo.h"
+#include "shading/diffuse.h"
+#include "shading/compensation.h"
+#include "shading/light.h"
+#include "shading/shade.h"
+#include "shading/sampling.h"
+#include "shading/environment.h"

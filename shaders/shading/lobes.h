@@ -1,0 +1,12 @@
+// What the specular models need, in the order of dependence: all of it that the DFG tables are integrated from.
+#include "shading/constants.h"
+#include "shading/rungs.h"
+#include "shading/roughness.h"
+#include "shading/substance.h"
+#include "shading/fresnel.h"
+#include "shading/lobe.h"
+#include "shading/distribution.h"
+#include "shading/geometry.h"
+#include "shading/surface.h"
+#include "shading/specular.h"
+#include "shading/dfg.h"
