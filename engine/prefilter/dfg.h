@@ -25,10 +25,6 @@ shading::Rungs dfgRungs(int index);
 /// index < kDfgTables.
 DfgTable dfgTable(int index);
 
-/// One entry by quadrature in double. nov and alpha in (0, 1]. More nodes where `fine`.
-glm::dvec2 integrateDfg(const shading::Rungs& rungs, double nov, double alpha, bool fine = false);
-/// 2 ∫ of it times the cosine.
-glm::dvec2 integrateDfgMean(const shading::Rungs& rungs, double alpha, bool fine = false);
 /// What dfgColumn and dfgRow of shading/dfg.h take to a coordinate in [0, 1].
 double cosineOfColumn(double column);
 double alphaOfRow(double row);

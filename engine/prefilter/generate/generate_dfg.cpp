@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "prefilter/dfg.h"
+#include "reference/energy.h"
 
 using namespace burnish;
 
@@ -20,8 +21,8 @@ int main(int argc, char** argv) {
   std::vector<glm::dvec2> table;
   for (int j = 0; j < height; ++j) {
     const double alpha = prefilter::alphaOfRow(j / double(height - 1));
-    for (int i = 0; i < columns; ++i) table.push_back(prefilter::integrateDfg(rungs, prefilter::cosineOfColumn(i / double(columns - 1)), alpha));
-    table.insert(table.end(), 2, prefilter::integrateDfgMean(rungs, alpha));
+    for (int i = 0; i < columns; ++i) table.push_back(reference::lobeAlbedo(rungs, prefilter::cosineOfColumn(i / double(columns - 1)), alpha));
+    table.insert(table.end(), 2, reference::lobeAlbedoMean(rungs, alpha));
   }
   double scale = 1;
   for (const glm::dvec2& e : table) scale = std::max({scale, e.x, e.y});

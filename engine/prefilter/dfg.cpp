@@ -1,9 +1,8 @@
-// E(v) = ∫ f(l, v) (n·l) dl with F = F0 + (1 - F0) (1 - l·h)^5 split into scale and bias (Karis 2013, "Real Shading in Unreal Engine 4", eq. 8).
+// Which table a rung has, and what its rows and columns stand for.
 #include <algorithm>
 #include <cmath>
 
 #include "prefilter/dfg.h"
-#include "reference/quadrature.h"
 
 namespace burnish::prefilter {
 
@@ -34,23 +33,6 @@ shading::Rungs dfgRungs(int index) {
     k.geometry = index % 5;
   }
   return k;
-}
-
-glm::dvec2 integrateDfg(const shading::Rungs& rungs, double nov, double alpha, bool fine) {
-  const f64::Surface m = f64::makeSurface({0, 0, 1}, reference::directionAt(nov), glm::dvec3(1), 1, alpha);
-  const reference::Resolution resolution = fine ? reference::Resolution{96, 96} : reference::Resolution{40, 32};
-  const auto integrand = [&](const glm::dvec3& l) {
-    const f64::Angles a = f64::anglesOf(m, l);
-    const double w = f64::schlickWeight(a.loh);
-    return glm::dvec2(1 - w, w) * f64::specularRung(m, a, rungs);
-  };
-  const glm::dvec2 e = lobeFamily(rungs) == LOBE_FAMILY_PHONG ? reference::integrateMirror<glm::dvec2>(nov, alpha, integrand, resolution)
-                                                              : reference::integrateHalf<glm::dvec2>(nov, alpha, integrand, resolution);
-  return e;
-}
-
-glm::dvec2 integrateDfgMean(const shading::Rungs& rungs, double alpha, bool fine) {
-  return reference::hemisphereMean<glm::dvec2>([&](double c) { return integrateDfg(rungs, std::max(c, 1e-7), alpha, fine); }, fine ? 64 : 32);
 }
 
 double cosineOfColumn(double column) { return std::clamp(std::pow(0.1 + 0.9 * column, 4), 1e-4, 1.0); }
