@@ -5,15 +5,16 @@
 
 #include <iostream>
 
-#include "prefilter/dfg.h"
-#include "reference/shading.h"
 #include "render/scenes.h"
+#include "shading/test_rungs.h"
 
 using namespace burnish;
 using namespace burnish::test;
 namespace f64 = burnish::shading::f64;
 
 namespace {
+
+const shading::Rungs kRungs = defaultRungs();
 
 Material plain(vec3 albedo, float roughness, float substance = 1.0f / 3) {
   Material m;
@@ -83,7 +84,7 @@ TEST_CASE("sphere under a directional light: Lambert and lobe, every pixel") {
     const double alpha = double(k.material.roughness) * k.material.roughness;
     // Where n·l grazes, the normal's step is all there is; and a code's 1.6 % in alpha is far more in a lobe's tail: there the bound is half a percent of the peak.
     const Errors e = compareSphere(p, view, k.bound, k.absolute, [&](dvec3 n, dvec3 v) {
-      return f64::shadeDirection(f64::makeSurface(n, v, dvec3(k.material.albedo), k.material.substance, alpha), toLight, 1, 1) * dvec3(1000.0, 900.0, 800.0);
+      return f64::shadeDirection(f64::makeSurface(n, v, dvec3(k.material.albedo), k.material.substance, alpha), toLight, glm::dvec2(0), kRungs) * dvec3(1000.0, 900.0, 800.0);
     });
     say(k.name, e, k.bound);
     CHECK(e.count > 10000);
@@ -96,7 +97,7 @@ TEST_CASE("the lobe is finite where the half vector lies in the surface") {
   for (float p : {0.0f, 1.0f, 100.0f, 1.25e7f}) CHECK(std::isfinite(burnish::shading::f32::lobeStable(1.0f, p)));
   const vec3 n(0, 1, 0), v = glm::normalize(vec3(1, 0.5f, 0)), l = glm::normalize(vec3(1, -0.5f, 0));
   namespace f32 = burnish::shading::f32;
-  CHECK(f32::shadeDirection(f32::makeSurface(n, v, vec3(0.5f), 1, 1), l, 1, 1) == vec3(0));
+  CHECK(f32::shadeDirection(f32::makeSurface(n, v, vec3(0.5f), 1, 1), l, glm::vec2(0), kRungs) == vec3(0));
 }
 
 TEST_CASE("the middle of a rough sphere lit from the eye, by hand") {
@@ -133,7 +134,7 @@ TEST_CASE("point light on a plane: inverse square, with and without a range") {
         // Without a range: minus the stated bias, threshold over peak. With one: Karis' window.
         const double window = range > 0 ? std::pow(std::max(0.0, 1 - std::pow(std::sqrt(d2) / range, 4)), 2) : 1;
         const double irradiance = std::max(window / d2 - (range > 0 ? 0 : 0.1 / 200), 0.0);
-        const dvec3 wanted = f64::shadeDirection(f64::makeSurface({0, 1, 0}, -r.direction, dvec3(0.5), 1.0 / 3, 1), l / std::sqrt(d2), 1, 1) * dvec3(200.0, 100.0, 50.0) * irradiance;
+        const dvec3 wanted = f64::shadeDirection(f64::makeSurface({0, 1, 0}, -r.direction, dvec3(0.5), 1.0 / 3, 1), l / std::sqrt(d2), glm::dvec2(0), kRungs) * dvec3(200.0, 100.0, 50.0) * irradiance;
         if (irradiance == 0) {
           ++dark;
           CHECK(p.at(x, y) == dvec3(0));
@@ -172,7 +173,7 @@ TEST_CASE("spot light: the cone's edge and its falloff") {
     const double got = p.at(x, n / 2).x, t = std::clamp((3 / d - std::cos(0.5)) / (std::cos(0.3) - std::cos(0.5)), 0.0, 1.0);
     if (got > 0) edge = r;
     const double window = std::pow(1 - d2 * d2 / std::pow(50.0, 4), 2);
-    const double wanted = f64::shadeDirection(f64::makeSurface({0, 1, 0}, {0, 1, 0}, dvec3(0.5), 1.0 / 3, 1), dvec3(-r, 3, z) / d, 1, 1).x * 500 * t * t * window / d2;
+    const double wanted = f64::shadeDirection(f64::makeSurface({0, 1, 0}, {0, 1, 0}, dvec3(0.5), 1.0 / 3, 1), dvec3(-r, 3, z) / d, glm::dvec2(0), kRungs).x * 500 * t * t * window / d2;
     worst = std::max(worst, std::abs(got - wanted));
   }
   std::cout << fmt::format("  spot edge at {:.3f} m, wanted {:.3f} m; largest error {:.4f} of 8.9 cd/m2\n", edge, 3 * std::tan(0.5), worst);
@@ -258,7 +259,7 @@ TEST_CASE("constant surroundings: directional albedo of the table") {
         if (d <= 0) continue;
         const double nov = -glm::dot(r.origin + r.direction * (-b - std::sqrt(d)), r.direction);
         if (nov < 0.2) continue;
-        const glm::dvec2 dfg = prefilter::integrateDfg(Geometry::Kelemen, nov, m.roughness);
+        const glm::dvec2 dfg = reference::lobeAlbedo(kRungs, nov, double(m.roughness) * m.roughness);
         const DecodedSubstance s = decodeSubstance(m.substance, m.albedo);
         const double reflectance = s.f0.x * dfg.x + dfg.y;
         e.add(std::abs(p.at(x, y).x / (10 * (reflectance + s.diffuse.x * (1 - reflectance))) - 1), 0.015);

@@ -5,8 +5,8 @@
 #include <iostream>
 #include <random>
 
-#include "reference/shading.h"
 #include "render/scenes.h"
+#include "shading/test_rungs.h"
 
 using namespace burnish;
 using namespace burnish::test;
@@ -100,13 +100,14 @@ std::vector<Lamp> lampsOf(const Scene& scene) {
 dvec3 bruteForce(const Hall& hall, const std::vector<Lamp>& lamps, const Ray& r, const Hit& h) {
   const dvec3 p = r.origin + r.direction * h.t;
   const auto m = f64::makeSurface(h.normal, -r.direction, dvec3(hall.albedo), 1.0 / 3, hall.alpha);
+  const shading::Rungs rungs = defaultRungs();
   dvec3 sum(0);
   for (const Lamp& lamp : lamps) {
     const dvec3 l = lamp.position - p;
     const double d2 = std::max(glm::dot(l, l), 1e-4), d = std::sqrt(d2);
     if (d >= lamp.range) continue;  // the window is 0 there
     const double window = 1 - std::pow(d / lamp.range, 4), t = lamp.spot ? std::clamp(-glm::dot(lamp.axis, l) / d * lamp.scale + lamp.offset, 0.0, 1.0) : 1;
-    sum += f64::shadeDirection(m, l / d, 1, 1) * lamp.color * (window * window / d2 * t * t);
+    sum += f64::shadeDirection(m, l / d, glm::dvec2(0), rungs) * lamp.color * (window * window / d2 * t * t);
   }
   return sum;
 }
