@@ -2,8 +2,8 @@
 // (docs/shading.md, section 4).
 #include <catch2/catch.hpp>
 
-#include "reference/shading.h"
 #include "sphere.h"
+#include "test_rungs.h"
 
 using namespace burnish;
 using namespace burnish::shading;
@@ -95,7 +95,7 @@ TEST_CASE("the stable lobe is finite where the half vector lies in the surface")
     }
   // A light as far behind the surface as the eye is before it: l + v has no part along n.
   const vec3 n(0, 0, 1), v(0.6f, 0, 0.8f), l(0, 0.6f, -0.8f);
-  const vec3 behind = f32::shadeDirection(f32::makeSurface(n, v, vec3(0.5f), 0.3f, 0.1f), l, 1, 1);
+  const vec3 behind = f32::shadeDirection(f32::makeSurface(n, v, vec3(0.5f), 0.3f, 0.1f), l, glm::vec2(0), defaultRungs());
   CHECK(behind == vec3(0));
 }
 
@@ -199,18 +199,19 @@ TEST_CASE("the default path is reciprocal, and float follows double") {
     ++used;
     const float alpha = 0.01f + 0.99f * float(used % 100) / 100, substance = float(used % 37) / 36;
     const vec3 albedo(0.8f, 0.4f, 0.1f);
-    for (const int geometry : {0, 1}) {
+    for (const int geometry : {GEOMETRY_VOID, GEOMETRY_KELEMEN}) {
+      const Rungs rungs = defaultRungs(geometry);
       const dvec3 dn = glm::normalize(dvec3(n)), dl = glm::normalize(dvec3(l)), dv = glm::normalize(dvec3(v));
       const auto exact = [&](const dvec3& from, const dvec3& to) {
         return f64::shadeDirection(f64::makeSurface(dn, to, dvec3(albedo), double(substance), double(alpha)), from,
-                                   geometry, 1) /
+                                   glm::dvec2(0), rungs) /
                dot(dn, from);
       };
       const dvec3 there = exact(dl, dv), back = exact(dv, dl);
       CHECK(glm::length(there - back) <=
             1e-6 * glm::length(there));  // logOneMinus has a truncated series in double too
       const vec3 inFloat =
-          f32::shadeDirection(f32::makeSurface(n, v, albedo, substance, alpha), l, geometry, 1) / dot(n, l);
+          f32::shadeDirection(f32::makeSurface(n, v, albedo, substance, alpha), l, glm::vec2(0), rungs) / dot(n, l);
       // Relative to the value with the lobe at its peak, where the rounding of vectors is what counts.
       const double scale = glm::length(there) + f64::D_blinnPhong(1, f64::powerFromAlpha(double(alpha))) * 1e-2;
       worst = std::fmax(worst, glm::length(dvec3(inFloat) - there) / scale);

@@ -1,9 +1,8 @@
-// Light of the surroundings: prefiltered levels, irradiance, the DFG table (docs/shading.md, section 5).
+// Light of the surroundings: prefiltered levels, irradiance (docs/shading.md, section 5).
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <functional>
 
-#include "prefilter/dfg.h"
 #include "prefilter/environment.h"
 #include "reference/shading.h"
 #include "sphere.h"
@@ -40,7 +39,7 @@ Image latLong(int width, const std::function<dvec3(const dvec3&)>& radiance) {
 
 vec3 irradianceAt(const EnvironmentLight& light, const vec3& n) {
   const auto& c = light.irradiance;
-  return f32::irradianceSh(n, c[0], c[1], c[2], c[3], c[4], c[5], c[6], c[7], c[8]);
+  return f32::irradianceSh(n, c[0], c[1], c[2], c[3], c[4], c[5], c[6], c[7], c[8], AMBIENT_SH_L2);
 }
 
 double lobeWeight(double cosine, double p) { return cosine > 0 ? std::pow(0.5 * (1 + cosine), 0.5 * p) * cosine : 0; }
@@ -159,66 +158,5 @@ TEST_CASE("a small bright disc shows the lobe's own profile at every level") {
                   << " % from an analytic light's lobe");
     CHECK(worst < 0.02);
     CHECK(worstAnalytic < (k == 1 ? 0.08 : 0.025));  // level 1 sees the disc's own width
-  }
-}
-
-TEST_CASE("DFG: quadrature against a direct sum over light directions") {
-  double worst = 0;
-  for (const Geometry geometry : {Geometry::Void, Geometry::Kelemen})
-    for (const double r : {0.3, 0.5, 1.0})
-      for (const double nov : {0.1, 0.35, 0.8, 1.0}) {
-        const double p = f64::powerFromAlpha(f64::alphaFromRoughness(r));
-        const dvec3 v = viewAt(nov);
-        const auto sum = [&](double f0) {
-          return integrateHemisphere(
-              [&](const dvec3& l) {
-                f64::Surface m = f64::makeSurface(dvec3(0, 0, 1), v, dvec3(0), 0, 1);
-                m.power = p;
-                m.f0 = dvec3(f0);
-                return f64::shadeDirection(m, l, geometry == Geometry::Kelemen ? 1 : 0, 1).x;
-              },
-              400);
-        };
-        const glm::dvec2 entry = integrateDfg(geometry, nov, r, 512, 256);
-        worst = std::fmax(worst, std::abs(entry.y - sum(0)));
-        worst = std::fmax(worst, std::abs(entry.x + entry.y - sum(1)));
-      }
-  WARN("DFG quadrature: off by at most " << worst);
-  CHECK(worst < 2e-3);
-}
-
-TEST_CASE("the DFG table as texture() reads it") {
-  for (const Geometry geometry : {Geometry::Void, Geometry::Kelemen}) {
-    const auto table = dfgTable(geometry);
-    REQUIRE(table.size() == std::size_t(2 * kDfgSize * kDfgSize));
-    const auto texel = [&](int i, int j) {
-      const std::size_t k =
-          2 * (std::size_t(std::clamp(j, 0, kDfgSize - 1)) * kDfgSize + std::size_t(std::clamp(i, 0, kDfgSize - 1)));
-      return glm::dvec2(table[k], table[k + 1]) / 65535.0;
-    };
-    // Bilinear, clamped to the edge.
-    const auto sample = [&](double nov, double r) {
-      const glm::dvec2 at = f64::dfgCoordinate(nov, r) * double(kDfgSize) - 0.5;
-      const double x = at.x, y = at.y, i = std::floor(x), j = std::floor(y);
-      const auto row = [&](int k) { return glm::mix(texel(int(i), k), texel(int(i) + 1, k), x - i); };
-      return glm::mix(row(int(j)), row(int(j) + 1), y - j);
-    };
-    double worst = 0, worstNov = 0, worstRoughness = 0, worstGrazing = 0;
-    for (int j = 0; j <= 16; ++j)
-      for (int i = 0; i <= 40; ++i) {
-        const double nov = i < 8 ? 0.002 * (i + 1) : (i - 7) / 33.0, r = j == 0 ? 0.02 : j / 16.0;
-        const glm::dvec2 read = sample(nov, r), truth = integrateDfg(geometry, nov, r, 256, 128);
-        const double error = std::fmax(std::abs(read.x - truth.x), std::abs(read.y - truth.y));
-        if (nov < 1.5 / kDfgSize)
-          worstGrazing = std::fmax(worstGrazing, error);
-        else if (error > worst)
-          worst = error, worstNov = nov, worstRoughness = r;
-      }
-    WARN((geometry == Geometry::Void ? "void" : "Kelemen")
-         << " DFG table: off by at most " << worst << " (n·v " << worstNov << ", r " << worstRoughness << "), "
-         << worstGrazing << " within 1.4 degrees of grazing");
-    CHECK(worst < 5e-3);
-    // Kelemen's albedo rises from nothing within the lobe's width of the horizon, which is narrower than a texel there.
-    CHECK(worstGrazing < 0.15);
   }
 }
