@@ -25,6 +25,10 @@ shading::Rungs dfgRungs(int index);
 /// index < kDfgTables.
 DfgTable dfgTable(int index);
 
+/// The table of the lobe in force as a renderer reads it: filtered linearly, scaled for the normalization. cosine, alpha: any number.
+glm::dvec2 lookUpDfg(const shading::Rungs& rungs, double cosine, double alpha);
+/// Its mean over the hemisphere.
+glm::dvec2 lookUpDfgMean(const shading::Rungs& rungs, double alpha);
 /// What dfgColumn and dfgRow of shading/dfg.h take to a coordinate in [0, 1].
 double cosineOfColumn(double column);
 double alphaOfRow(double row);

@@ -26,6 +26,10 @@ struct Resolution {
 template <class T, class F>
 T integrateHalf(double nov, double alpha, F&& f, const Resolution& resolution = {});
 
+/// The nodes of integrateHalf: visit(l, weight) for each, on one side of the xz plane, weights for both.
+template <class Visit>
+void visitHalf(double nov, double alpha, const Resolution& resolution, Visit&& visit);
+
 /// The same with the nodes around the mirrored direction (Phong's lobes), of half-width `alpha` as integrateHalf's.
 template <class T, class F>
 T integrateMirror(double nov, double alpha, F&& f, const Resolution& resolution = {});

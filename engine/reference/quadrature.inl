@@ -39,13 +39,12 @@ inline double uOf(double theta, double alpha2) {
 
 }  // namespace detail
 
-template <class T, class F>
-T integrateHalf(double nov, double alpha, F&& f, const Resolution& resolution) {
+template <class Visit>
+void visitHalf(double nov, double alpha, const Resolution& resolution, Visit&& visit) {
   using detail::kPi;
   const GaussRule polar(resolution.polar), azimuth(resolution.azimuth);
   const glm::dvec3 v = directionAt(nov);
   const double alpha2 = alpha * alpha, thetaV = std::acos(std::min(nov, 1.0));
-  T sum(0);
   // l is above the horizon for whole rings up to 45° - θv/2, for none past 45° + θv/2.
   const double first = detail::uOf(kPi / 4 - thetaV / 2, alpha2), last = detail::uOf(kPi / 4 + thetaV / 2, alpha2);
   for (const detail::Piece& piece : {detail::Piece{0, first}, detail::Piece{first, last}})
@@ -55,17 +54,21 @@ T integrateHalf(double nov, double alpha, F&& f, const Resolution& resolution) {
       const double limit = (nov / (2 * c) - nov * c) / std::max(v.x * s, 1e-300);
       if (limit >= 1) return;
       const double end = limit <= -1 ? kPi : std::acos(limit);
-      T ring(0);
       for (std::size_t j = 0; j < azimuth.node.size(); ++j) {
         // Nodes crowd toward the horizon, where 1/(v·h) varies fastest.
         const double t = azimuth.node[j], phi = end * (1 - t * t);
         const glm::dvec3 h(s * std::cos(phi), s * std::sin(phi), c);
         const double voh = glm::dot(v, h);
         const glm::dvec3 l = h * (2 * voh) - v;
-        if (voh > 0 && l.z > 0) ring += f(l) * (azimuth.weight[j] * 2 * t * 4 * voh);
+        if (voh > 0 && l.z > 0) visit(l, azimuth.weight[j] * 2 * t * 4 * voh * 2 * end * jacobian * du);
       }
-      sum += ring * (2 * end * jacobian * du);
     });
+}
+
+template <class T, class F>
+T integrateHalf(double nov, double alpha, F&& f, const Resolution& resolution) {
+  T sum(0);
+  visitHalf(nov, alpha, resolution, [&](const glm::dvec3& l, double weight) { sum += f(l) * weight; });
   return sum;
 }
 

@@ -18,7 +18,7 @@ layout(location = 2) out float outOcclusion;
 void main() {
   Fetched f = fetchMaterial();
   outAlbedoSubstance = vec4(encodeAlbedo(f.albedo), f.code);
-  outNormalRoughness = vec4(packNormal(f.normal), encodeAlpha(alphaFromRoughness(f.roughness)));
+  outNormalRoughness = vec4(packNormal(f.normal), encodeAlpha(storedAlpha(alphaFromRoughness(f.roughness))));
 #if OCCLUSION
   outOcclusion = f.occlusion;
 #endif

@@ -26,6 +26,13 @@ FN real specularAlbedo(real f0, vec2 dfg, vec2 mean, Rungs k) {
   return unitClamp(e);
 }
 
+// The same for a smooth surface, whose albedo is Fresnel's reflectance itself: (1 - F(n·v))(1 - F(n·l)) / (1 - F mean); with Schlick's 21/20 (1 - F0)(1 - (1 - n·v)^5)(1 - (1 - n·l)^5).
+// Shirley, Hu, Smits and Lafortune 1997, "A Practitioners' Assessment of Light Reflection Models", section 3. No table, reciprocal, and the sum never passes 1 (tests/shading/energy_test),
+// while 1 - F(l·h) lets diffuse keep what specular reflects toward a grazing eye.
+FN real coupledSmoothShare(real f0, real nov, real nol, int fresnel) {
+  return (R(1.0) - fresnelDielectricPart(f0, nov, fresnel)) * (R(1.0) - fresnelDielectricPart(f0, nol, fresnel)) / max(R(1.0) - fresnelMean(f0, fresnel), BURNISH_GUARD_LOSS);
+}
+
 // Diffuse takes what specular leaves, on the way in and on the way out: (1 - E(v))(1 - E(l)) / (1 - E mean). Kelemen and Szirmay-Kalos 2001, eq. 8 and 9. Reciprocal;
 // with diffuse albedo 1 the sum of both is 1 at every angle.
 FN real coupledShare(real f0, vec2 dfgV, vec2 dfgL, vec2 mean, Rungs k) {

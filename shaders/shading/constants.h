@@ -26,7 +26,7 @@
 #define BURNISH_GUARD_COS2 GUARDED(7, R(1e-6), R(0.0))
 
 // Denominators of visibility terms are held above this: they vanish where light and eye both graze, and n·l, which multiplies the term, vanishes with them.
-#define BURNISH_GUARD_VISIBILITY GUARDED(8, R(1e-7), R(0.0))
+#define BURNISH_GUARD_VISIBILITY GUARDED(8, R(1e-12), R(0.0))
 
 // 1 - sqrt(F0) is held above this: the index of refraction that gives F0 = 1 is infinite.
 #define BURNISH_GUARD_INDEX GUARDED(9, R(1e-6), R(0.0))
@@ -40,23 +40,20 @@
 // Lengths under this are no direction: a zero normal becomes +z.
 #define BURNISH_GUARD_LENGTH GUARDED(12, R(1e-30), R(0.0))
 
-// Bases of the power in specular occlusion, which is undefined at 0 (n·v + ao = 0: a black corner seen edge-on).
-#define BURNISH_GUARD_OCCLUSION GUARDED(13, R(1e-4), R(0.0))
-
 // Random numbers are held this far from 0, where the tails of Beckmann's lobe and of the cosine powers begin at infinity or at the horizon (2^-25: half a step of 24-bit numbers).
-#define BURNISH_GUARD_RANDOM GUARDED(14, R(2.9802322e-8), R(0.0))
+#define BURNISH_GUARD_RANDOM GUARDED(13, R(2.9802322e-8), R(0.0))
 
 // Radiance is held at what half floats hold where a tone curve would overflow.
-#define BURNISH_GUARD_RADIANCE GUARDED(15, R(65504.0), R(1e30))
+#define BURNISH_GUARD_RADIANCE GUARDED(14, R(65504.0), R(1e300))
 
-// Arguments of AgX's logarithm; 1e-10 lies below its black point of 2^-12.47.
-#define BURNISH_GUARD_AGX GUARDED(16, R(1e-10), R(0.0))
+// Arguments of AgX's logarithm, which is undefined at 0 and below; 1e-10 lies below its black point of 2^-12.47.
+#define BURNISH_GUARD_AGX GUARDED(15, R(1e-10), R(-1e300))
 
 // Cosines, codes and reflectances of unit range: dot products of unit vectors leave [0, 1] by rounding, maps by filtering, a host's numbers by anything.
-FN real unitClamp(real x) { return GUARDED(17, clamp(x, R(0.0), R(1.0)), x); }
+FN real unitClamp(real x) { return GUARDED(16, clamp(x, R(0.0), R(1.0)), x); }
 
 // Numbers that cannot be negative but for rounding (squared sines, what is left of energy).
-FN real notNegative(real x) { return GUARDED(18, max(x, R(0.0)), x); }
+FN real notNegative(real x) { return GUARDED(17, max(x, R(0.0)), x); }
 
 // Numbers that no exponent or product can bear are held at 1e18, whose square is still a float.
-FN real heldLarge(real x) { return GUARDED(19, clamp(x, R(-1e18), R(1e18)), x); }
+FN real heldLarge(real x) { return GUARDED(18, clamp(x, R(-1e18), R(1e18)), x); }

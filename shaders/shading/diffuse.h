@@ -14,7 +14,7 @@ FN real Fd_orenNayarQualitative(real nol, real nov, real lov, real sigma) {
   real s2 = unitClamp(sigma) * unitClamp(sigma);
   real a = R(1.0) - R(0.5) * s2 / (s2 + R(0.33));
   real b = R(0.45) * s2 / (s2 + R(0.09));
-  real s = notNegative(azimuthTerm(l, v, lov));
+  real s = max(azimuthTerm(l, v, lov), R(0.0));  // model: max(0, cos φ)
   return (a + b * s / max(max(l, v), BURNISH_GUARD_NOV)) / BURNISH_PI;  // model: the larger cosine
 }
 

@@ -44,5 +44,6 @@ FN real ambientShare(Surface m, int rung, Rungs k) {
 FN real specularOcclusion(real nov, real ao, real alpha, int rung) {
   if (rung == SPECULAR_OCCLUSION_NONE) return R(1.0);
   if (rung == SPECULAR_OCCLUSION_AO) return unitClamp(ao);
-  return unitClamp(pow(max(unitClamp(nov) + unitClamp(ao), BURNISH_GUARD_OCCLUSION), exp2(R(-16.0) * unitClamp(alpha) - R(1.0))) - R(1.0) + unitClamp(ao));
+  real a = unitClamp(ao);
+  return clamp(pow(unitClamp(nov) + a, exp2(R(-16.0) * unitClamp(alpha) - R(1.0))) - R(1.0) + a, R(0.0), R(1.0));  // model: Lagarde's saturate
 }

@@ -85,8 +85,10 @@ FN real refractSnell(vec3 toEye, vec3 n, real eta, OUT(vec3) direction) {
 
 // The same scaled to f0 at normal incidence: a map's tint over the named metal's curve. Not above 1.
 FN real conductorOver(real f0, real eta, real k, real loh) {
-  real normal = ((eta - R(1.0)) * (eta - R(1.0)) + k * k) / ((eta + R(1.0)) * (eta + R(1.0)) + k * k);
-  return unitClamp(F_conductor(eta, k, loh) * (f0 / max(normal, BURNISH_GUARD_FRESNEL)));
+  real n = clamp(eta, R(0.0), R(1e4));  // model: as in F_conductor
+  real x = clamp(k, R(0.0), R(1e4));    // model
+  real normal = ((n - R(1.0)) * (n - R(1.0)) + x * x) / ((n + R(1.0)) * (n + R(1.0)) + x * x);
+  return unitClamp(F_conductor(n, x, loh) * (unitClamp(f0) / max(normal, BURNISH_GUARD_FRESNEL)));
 }
 
 // The rung in force. eta, k: of named conductors, eta 0 elsewhere, where the exact equation takes its index from f0.

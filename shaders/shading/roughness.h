@@ -25,4 +25,8 @@ FN real sigmaFromAlpha(real alpha) { return alpha * R(0.70710678118654752); }
 // The G-buffer's code of alpha in [BURNISH_ALPHA_MIN, 1]: linear in log alpha, so that 8 bits err by at most 1.6 % in alpha (3.2 % in the peak) everywhere.
 // log2(1/4e-4) = 11.287712...
 FN real encodeAlpha(real alpha) { return R(1.0) + log2(max(unitClamp(alpha), BURNISH_ALPHA_MIN)) / R(11.287712379549449); }
+// The alpha to store beside a 24-bit normal: the rounding of the normal (mean square 1.61e-7 rad²) spreads a highlight like facets of that variance, alpha² + 1.61e-7, so it is taken
+// off beforehand. Without it the peak at r = 0.05 would lose 2.6 %; at r = 0.1 it is 0.2 %.
+FN real storedAlpha(real alpha) { return sqrt(max(alpha * alpha - R(1.61e-7), BURNISH_ALPHA_MIN * BURNISH_ALPHA_MIN)); }
+
 FN real decodeAlpha(real code) { return exp2((code - R(1.0)) * R(11.287712379549449)); }

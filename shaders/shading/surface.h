@@ -27,7 +27,8 @@ FN Surface makeSurface(vec3 n, vec3 v, vec3 albedo, real substance, real alpha) 
   // A mapped or interpolated normal may look away from the eye, which no surface that is seen does: it is bent back until it is perpendicular to v. Without this a
   // light behind the surface (l near -v) meets n·l > 0 with hardly any half vector, and Kelemen's 1/|l + v|² turns into speckles.
   real nov = dot(n, v);
-  m.n = nov < R(0.0) ? normalize(n - v * nov) : n;
+  vec3 bent = n - v * nov;
+  m.n = nov < R(0.0) ? bent * inversesqrt(max(dot(bent, bent), BURNISH_GUARD_LENGTH)) : n;
   m.nov = notNegative(nov);
   m.vt = v - m.n * m.nov;
   m.diffuse = substanceDiffuse(substance, albedo);

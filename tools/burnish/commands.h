@@ -14,5 +14,6 @@ Command addRender(CLI::App& program);
 Command addPlan(CLI::App& program);
 Command addInspect(CLI::App& program);
 Command addDoctor(CLI::App& program);
+Command addStability(CLI::App& program);
 
 }  // namespace cli
