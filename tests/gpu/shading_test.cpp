@@ -6,8 +6,11 @@
 #include <vector>
 
 #include "shader_cases.h"
+#include "shading/test_rungs.h"
 
 using namespace burnish;
+using burnish::stability::glslOf;
+using burnish::test::defaultRungs;
 using burnish::test::GlFixture;
 using burnish::test::onGpu;
 using glm::dvec3;
@@ -154,16 +157,18 @@ TEST_CASE("GLSL: the stable lobe") {
 TEST_CASE("GLSL: the lighting equation follows C++ in double") {
   GlFixture f;
   const std::vector<Case> cases = shadingCases(20'000, 0.1f);
-  for (const int geometry : {0, 1}) {
-    const auto gpu = onGpu(f, cases, "shade(a, b, c, d, " + std::to_string(geometry) + ", 1)");
+  for (const int geometry : {GEOMETRY_VOID, GEOMETRY_KELEMEN}) {
+    const shading::Rungs rungs = defaultRungs(geometry);
+    const auto gpu = onGpu(f, cases, "shadeCase(a, b, c, d, e, f.xy, " + glslOf(rungs) + ")");
     const auto truth = [&](const Case& c) {
       const dvec3 n = glm::normalize(dvec3(c[0])), l = glm::normalize(dvec3(c[1])), v = glm::normalize(dvec3(c[2]));
-      return f64::shadeDirection(f64::makeSurface(n, v, dvec3(c[3]), double(c[3].w), double(c[0].w)), l, geometry, 1);
+      return f64::shadeDirection(f64::makeSurface(n, v, dvec3(c[3]), double(c[3].w), double(c[0].w)), l, glm::dvec2(0),
+                                 rungs);
     };
     // Of the lobe's peak at this l and v, or of 1/π where that is more.
     const auto scale = [&](const Case& c, const dvec3&) {
       const double p = f64::powerFromAlpha(double(c[0].w)), s2 = 2 + 2 * dot(dvec3(c[1]), dvec3(c[2]));
-      const double peak = geometry ? f64::D_blinnPhong(1, p) / s2 : f64::normalizationExact(p);
+      const double peak = geometry == GEOMETRY_KELEMEN ? f64::D_blinnPhong(1, p) / s2 : f64::normalizationExact(p);
       return std::fmax(peak, 0.318);
     };
     const double error = worstError(cases, gpu, truth, scale);
@@ -195,8 +200,11 @@ TEST_CASE("GLSL: the lighting equation is finite and not negative on hard inputs
                l = glm::normalize(vec3(t.x, t.y, 0)) * std::sqrt(1 - v.z * v.z) - n * v.z;
     cases.push_back({vec4(n, 0.01f), vec4(l, 0), vec4(v, 0), vec4(0.5f)});
   }
-  for (const char* evaluate :
-       {"shade(a, b, c, d, 0, 0)", "shade(a, b, c, d, 0, 1)", "shade(a, b, c, d, 1, 0)", "shade(a, b, c, d, 1, 1)"}) {
+  std::vector<std::string> evaluated;
+  for (const int geometry : {GEOMETRY_VOID, GEOMETRY_KELEMEN})
+    for (const int lobe : {LOBE_POW, LOBE_EXP2, LOBE_STABLE})
+      evaluated.push_back("shadeCase(a, b, c, d, e, f.xy, " + glslOf(defaultRungs(geometry, lobe)) + ")");
+  for (const std::string& evaluate : evaluated) {
     const auto gpu = onGpu(f, cases, evaluate);
     for (std::size_t i = 0; i < cases.size(); ++i) {
       const vec4 &l = cases[i][1], &v = cases[i][2];
@@ -236,8 +244,9 @@ TEST_CASE("GLSL: attenuation and occlusion") {
     for (const float ao : {0.0f, 1.0f})
       for (const float alpha : {4e-4f, 1.0f}) cases.push_back({vec4(1), vec4(nov, ao, alpha, 0)});
   const double occlusion = worstError(
-      cases, onGpu(f, cases, "vec4(specularOcclusion(b.x, b.y, b.z), 0.0, 0.0, 0.0)"),
-      [](const Case& c) { return dvec3(f64::specularOcclusion(double(c[1].x), double(c[1].y), double(c[1].z)), 0, 0); },
+      cases, onGpu(f, cases, "vec4(specularOcclusion(b.x, b.y, b.z, SPECULAR_OCCLUSION_LAGARDE), 0.0, 0.0, 0.0)"),
+      [](const Case& c) { return dvec3(f64::specularOcclusion(double(c[1].x), double(c[1].y), double(c[1].z),
+                                             SPECULAR_OCCLUSION_LAGARDE), 0, 0); },
       one);
   WARN("specularOcclusion: off by at most " << occlusion);
   CHECK(occlusion < 5e-6);
