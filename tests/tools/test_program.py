@@ -16,10 +16,10 @@ import time
 import unittest
 
 BURNISH = ""
-SUBCOMMANDS = ["render", "plan", "inspect", "doctor"]
+SUBCOMMANDS = ["render", "plan", "inspect", "doctor", "stability"]
 SANITIZED = os.environ.get("BURNISH_SANITIZED") == "1"
 RENDER_KEYS = ["schema_version", "backend", "renderer", "size", "frames", "timing_mode", "frame_ms", "frame_cpu_ms", "passes", "effects", "programs",
-               "gbuffer_bytes_per_pixel", "texture_bytes", "nonfinite_pixels", "gl_errors", "warnings"]
+               "gbuffer_bytes_per_pixel", "texture_bytes", "nonfinite_pixels", "gl_errors", "warnings", "rungs"]
 PLAN_KEYS = ["schema_version", "effects", "passes", "programs", "targets"]
 
 
@@ -84,12 +84,12 @@ class Help(Program):
     def test_scene_options_are_in_help(self):
         for name in "render", "plan":
             text = self.good(name, "--help").stdout
-            for option in "--camera --eye --target --up --fov --size --env --exposure --tonemap --backend --threads --json".split():
+            for option in "--camera --eye --target --up --fov --size --env --exposure --quality --set --tonemap --backend --threads --json".split():
                 self.assertIn(option, text)
 
     def test_what_does_not_work_yet_is_not_in_help(self):
         texts = "".join(self.good(*words, "--help").stdout for words in [[]] + [[name] for name in SUBCOMMANDS])
-        for later in "--quality --set --probes --time --list-rungs bake prefilter reference stability".split():
+        for later in "--probes --time bake prefilter reference".split():
             self.assertNotRegex(texts, rf"(?<![\w-]){later}(?![\w-])")
 
     def test_help_costs_little(self):
@@ -123,7 +123,7 @@ class Usage(Program):
 
     def test_missing_arguments(self):
         self.bad(2, "render", says="SCENE")
-        self.bad(2, "render", self.scene, says="-o")
+        self.bad(2, "render", self.scene, says="--output")
         self.bad(2, "inspect", says="FILE")
 
     def test_bad_values(self):
@@ -139,6 +139,13 @@ class Usage(Program):
     def test_alternatives_are_listed(self):
         self.bad(2, "plan", self.scene, "--tonemap", "filmic", says=("neutral", "agx", "aces", "none"))
         self.bad(2, "plan", self.scene, "--backend", "vulkan", says=("egl", "osmesa", "glfw"))
+
+    def test_rungs_by_name(self):
+        self.bad(2, "plan", self.scene, "--set", "fresnl=none", says=("--set", "fresnel", "did you mean"))
+        self.bad(2, "plan", self.scene, "--set", "fresnel=schlik", says=("did you mean 'schlick'", "conductor"))
+        for text in "fresnel", "fresnel=", "=schlick", "":
+            self.bad(2, "plan", self.scene, f"--set={text}", says="--set")
+        self.bad(2, "plan", self.scene, "--quality", "best", says=("seed", "default", "exact"))
 
     def test_eye_and_camera_are_one_or_the_other(self):
         self.bad(2, "plan", self.scene, "--eye", "0,0,3", says="--target")
@@ -377,6 +384,93 @@ class Render(Program):
         self.assertLess(time.monotonic() - begin, 2)
         self.assertEqual(list(self.out.iterdir()), [])
         self.assertRegex(errors, re.compile(r"^burnish: rendering \d+/100000 \(\d+ s\)$", re.M))
+
+
+class Rungs(Program):
+    def listing(self):
+        """{term: [(rung, in force by default, forward only)]} of --list-rungs, which needs no scene."""
+        terms, term = {}, None
+        for line in self.good("render", "--list-rungs").stdout.splitlines()[:-1]:
+            if not line.startswith(" "):
+                term = line.split(":")[0]
+                terms[term] = []
+            else:
+                mark, name = line[2], line[4:].split()[0]
+                terms[term].append((name, mark == "*", "[forward only]" in line))
+        return terms
+
+    def test_every_rung_of_the_ladders_is_listed(self):
+        terms = self.listing()
+        names = {term: [rung[0] for rung in rungs] for term, rungs in terms.items()}
+        self.assertEqual(names["fresnel"], "none schlick spherical-gaussian dielectric conductor".split())
+        self.assertEqual(names["normalization"], "none linear-fit linear-fit-8 plus-2 plus-8 exact".split())
+        self.assertEqual(names["lobe"], "pow exp2 stable".split())
+        self.assertEqual(names["distribution"], "blinn-phong beckmann ggx".split())
+        self.assertEqual(names["geometry"], "void kelemen schlick-smith smith v-cavity".split())
+        for model in "phong blinn-phong modified-phong max-phong normalized-blinn-phong cook-torrance ward ward-anisotropic ward-bounded ggx-smith".split():
+            self.assertIn(model, names["specular"])
+        for diffuse in "lambert lambert-fresnel coupled oren-nayar-qualitative oren-nayar oren-nayar-energy".split():
+            self.assertIn(diffuse, names["diffuse"])
+        self.assertEqual(names["compensation"], ["none", "multiple-scattering"])
+        forward = {f"{term}={name}" for term, rungs in terms.items() for name, _, only in rungs if only}
+        self.assertEqual(forward, {"specular=ward-anisotropic", "fresnel=conductor"})
+        for term, rungs in terms.items():
+            self.assertEqual(sum(default for _, default, _ in rungs), 1, term)
+
+    def test_set_and_presets_change_the_picture(self):
+        def picture(*arguments):
+            file = self.out / "a.png"
+            self.good("render", self.scene, "--size", "48x48", "--exposure", "1", *arguments, "-o", file)
+            return file.read_bytes()
+        usual = picture()
+        self.assertEqual(picture("--quality", "default"), usual)
+        self.assertNotEqual(picture("--quality", "seed"), usual)
+        # The last of two wins, over the preset, wherever it stands.
+        self.assertEqual(picture("--set", "fresnel=none", "--set", "fresnel=schlick"), usual)
+        self.assertNotEqual(picture("--set", "fresnel=none"), usual)
+        self.assertEqual(picture("--set", "diffuse=lambert", "--quality", "default"), picture("--set", "diffuse=lambert"))
+
+    def test_forward_only_and_idle_rungs_say_so(self):
+        result = self.good("render", self.scene, "--size", "16x16", "-o", self.out / "a.png", "--set", "specular=ward-anisotropic", "--set", "geometry=smith")
+        self.assertRegex(result.stderr, r"specular=ward-anisotropic needs what the G-buffer does not hold")
+        self.assertRegex(result.stderr, r"geometry=smith has no effect with specular=ward-anisotropic")
+        plan = json.loads(self.good("plan", self.scene, "--set", "fresnel=conductor", "--json", "-").stdout)
+        effect = next(e for e in plan["effects"] if e["name"] == "forward_reference")
+        self.assertTrue(effect["on"])
+        self.assertIn("fresnel=conductor", effect["reason"])
+        self.assertNotIn("gbuffer_a", [t["name"] for t in plan["targets"]])
+
+    def test_json_names_the_rungs(self):
+        report = json.loads(self.good("render", self.scene, "--size", "16x16", "-o", self.out / "a.png", "--set", "geometry=smith", "--json", "-").stdout)
+        self.assertEqual(report["rungs"]["geometry"], "smith")
+        self.assertEqual(report["rungs"]["fresnel"], "schlick")
+        self.assertEqual(set(report["rungs"]), set(self.listing()))
+
+
+class Stability(Program):
+    def test_hard_cases_hold(self):
+        if SANITIZED:  # tests/hard_cases runs the same table
+            return
+        file = self.out / "stability.json"
+        result = self.good("stability", "-o", file)
+        table = json.loads(file.read_text())
+        self.assertEqual(list(table), ["schema_version", "cases", "guards"])
+        for row in table["cases"]:
+            self.assertEqual(list(row)[:6], ["id", "case", "backend", "value", "bound", "pass"])
+            self.assertTrue(row["pass"], row)
+        self.assertEqual({row["backend"] for row in table["cases"]}, {"double", "float", "egl", "osmesa"})
+        for row in table["guards"]:
+            self.assertTrue({"name", "value", "reason", "worst_energy_loss"} <= set(row))
+        self.assertIn(f"{len(table['cases'])} of {len(table['cases'])} hold", result.stdout)
+
+    def test_a_backend_that_cannot_be_opened_fails(self):
+        environment = {**os.environ, "DISPLAY": ":987", "WAYLAND_DISPLAY": ""}
+        result = self.run_it("stability", "--backend", "glfw", "--no-ledger", env=environment)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("FAILS", result.stdout)
+
+    def test_bad_output(self):
+        self.bad(1, "stability", "-o", self.folder / "no" / "such.json", says="such.json")
 
 
 class Sample(Program):

@@ -139,6 +139,7 @@ int run(const RenderArguments& arguments) {
   report.renderer = session->renderer->capabilities().renderer;
   report.size = arguments.scene.size;
   report.profile = arguments.profile;
+  report.quality = arguments.scene.quality();
   auto picture = draw(*session, *loaded, arguments, report, progress);
   if (!picture) return progress.finish(), printError(picture.error());
   report.warnings = warningTexts(loaded->report);

@@ -98,6 +98,8 @@ Json RenderReport::toJson() const {
   out["nonfinite_pixels"] = nonfinitePixels_;
   out["gl_errors"] = glErrorCount_;
   out["warnings"] = warnings;
+  out["rungs"] = Json::object();
+  for (std::size_t t = 0; t < burnish::terms().size(); ++t) out["rungs"][std::string(burnish::terms()[t].name)] = burnish::terms()[t].rungs[burnish::rungOf(quality, t)].name;
   return out;
 }
 

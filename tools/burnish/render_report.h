@@ -31,6 +31,7 @@ struct RenderReport {
   std::string backend, renderer;
   glm::ivec2 size{0};
   bool profile = false;
+  burnish::Quality quality;
   burnish::FramePlan plan;
   std::vector<std::string> warnings;
   float exposureEv = 0;
