@@ -35,6 +35,7 @@ FN real phongRung(Surface m, Angles a, int rung) {
   real q = phongFromBlinnPhong(m.power);
   real difference = a.nol - m.nov;
   real cosine = R(2.0) * a.nol * m.nov - a.lov;
+  if (rung != LOBE_STABLE && cosine <= R(0.0)) return R(0.0);  // also where q is so near 0 that a power leaves light behind
   if (rung == LOBE_POW) return lobePow(cosine, q);
   if (rung == LOBE_EXP2) return exp2(q * log2(max(unitClamp(cosine), BURNISH_GUARD_LOG)));
   return lobePhong(dot(a.t, a.t) + difference * difference, q);
