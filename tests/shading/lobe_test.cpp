@@ -1,4 +1,4 @@
-// The specular lobe: evaluation in float against double, normalizations, directional albedo, Fresnel
+// The specular lobe: evaluation in float against double, normalizations, directional albedo
 // (docs/shading.md, section 4).
 #include <catch2/catch.hpp>
 
@@ -57,12 +57,6 @@ double albedo(double nov, double p, bool kelemen, int steps) {
       steps);
 }
 
-/// Unpolarized reflectance of a dielectric (Born and Wolf, Principles of Optics, section 1.5.2).
-double fresnelDielectric(double c, double eta) {
-  const double g = std::sqrt(eta * eta - 1 + c * c), a = (g - c) / (g + c), b = (c * (g + c) - 1) / (c * (g - c) + 1);
-  return 0.5 * a * a * (1 + b * b);
-}
-
 }  // namespace
 
 TEST_CASE("the lobe in float: the stable form keeps it, n·h loses it") {
@@ -95,7 +89,8 @@ TEST_CASE("the stable lobe is finite where the half vector lies in the surface")
     }
   // A light as far behind the surface as the eye is before it: l + v has no part along n.
   const vec3 n(0, 0, 1), v(0.6f, 0, 0.8f), l(0, 0.6f, -0.8f);
-  const vec3 behind = f32::shadeDirection(f32::makeSurface(n, v, vec3(0.5f), 0.3f, 0.1f), l, glm::vec2(0), defaultRungs());
+  const vec3 behind =
+      f32::shadeDirection(f32::makeSurface(n, v, vec3(0.5f), 0.3f, 0.1f), l, glm::vec2(0), defaultRungs());
   CHECK(behind == vec3(0));
 }
 
@@ -167,26 +162,6 @@ TEST_CASE("cheap normalizations against the exact one") {
   CHECK(plusTwo(1) == Approx(-0.659).margin(0.001));
   CHECK(plusTwo(16) == Approx(-0.200).margin(0.001));
   CHECK(plusTwo(64) == Approx(-0.059).margin(0.001));
-}
-
-TEST_CASE("Schlick's Fresnel against the exact one of dielectrics") {
-  struct Row {
-    double eta, error, degrees;
-  };
-  for (const Row& row : {Row{1.33, 0.060, 83.8}, Row{1.5, 0.036, 85.0}, Row{1.8, 0.035, 85.4}, Row{2.4, 0.074, 84.5}}) {
-    const double f0 = std::pow((row.eta - 1) / (row.eta + 1), 2);
-    double worst = 0, at = 0;
-    for (int i = 0; i < 9000; ++i) {
-      const double c = std::cos(i / 100.0 * kPi / 180),
-                   error = std::abs(f64::F_schlick(dvec3(f0), c).x - fresnelDielectric(c, row.eta));
-      if (error > worst) worst = error, at = i / 100.0;
-    }
-    CAPTURE(row.eta);
-    CHECK(std::abs(worst - row.error) < 0.001);
-    CHECK(std::abs(at - row.degrees) < 0.15);
-  }
-  CHECK(f64::F_schlick(dvec3(0.04), 1).x == Approx(0.04));
-  CHECK(f64::F_schlick(dvec3(0.04), 0).x == Approx(1));
 }
 
 TEST_CASE("the default path is reciprocal, and float follows double") {

@@ -15,7 +15,8 @@ inline shading::Rungs defaultRungs(int geometry = GEOMETRY_KELEMEN, int lobe = L
   return k;
 }
 
-/// Every specular rung that is a lobe of its own: the models, each distribution with each geometry, each normalization of void geometry.
+/// Every specular rung that is a lobe of its own: the models, each distribution with each geometry, each normalization
+/// of void geometry.
 inline std::vector<shading::Rungs> specularRungs() {
   std::vector<shading::Rungs> all;
   for (int model = 1; model <= SPECULAR_GGX_SMITH; ++model) {
@@ -42,7 +43,8 @@ inline std::string nameOf(const shading::Rungs& k) {
   const auto rung = [](std::size_t term, int i) { return std::string(terms()[term].rungs[std::size_t(i)].name); };
   if (k.specular != SPECULAR_MICROFACET) return rung(0, k.specular);
   std::string name = rung(1, k.distribution) + ", " + rung(2, k.geometry);
-  if (k.geometry == GEOMETRY_VOID && k.distribution == DISTRIBUTION_BLINN_PHONG) name += ", " + rung(3, k.normalization);
+  if (k.geometry == GEOMETRY_VOID && k.distribution == DISTRIBUTION_BLINN_PHONG)
+    name += ", " + rung(3, k.normalization);
   return name;
 }
 
