@@ -200,7 +200,8 @@ std::array<Declaration, kGuards + 1> declarations() {
     const std::string line(text.substr(0, end));
     text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
     if (line.starts_with("// ")) {
-      comment += (comment.empty() ? "" : " ") + line.substr(3);
+      if (!comment.empty()) comment += ' ';
+      comment += line.substr(3);
       continue;
     }
     if (const std::size_t at = line.find("GUARDED("); at != std::string::npos) {

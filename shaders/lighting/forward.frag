@@ -23,7 +23,7 @@ layout(location = 0) out vec4 outRadiance;
 Surface surfaceHere(Fetched f, vec3 toEye) {
   float n2 = dot(f.normal, f.normal);
   vec3 n = n2 > BURNISH_GUARD_LENGTH ? f.normal * inversesqrt(n2) : vec3(0.0, 0.0, 1.0);
-  Surface m = makeSurface(n, toEye, clamp(f.albedo, vec3(0.0), vec3(1.0)), unitClamp(f.code), alphaFromRoughness(f.roughness));
+  Surface m = makeSurface(n, toEye, vec3(unitClamp(f.albedo.r), unitClamp(f.albedo.g), unitClamp(f.albedo.b)), unitClamp(f.code), alphaFromRoughness(f.roughness));
   m.eta = material.conductorEta.rgb;
   m.k = material.conductorK.rgb;
   float c = cos(material.conductorK.w), s = sin(material.conductorK.w);
@@ -48,10 +48,9 @@ void main() {
   for (int i = 0; i < DIRECTIONAL; ++i) sum += shadeLight(m, frame.directional[2 * i].xyz, row, f.occlusion) * frame.directional[2 * i + 1].rgb;
   int count = int(frame.environment.y);
   for (int i = 1; i <= count; ++i) {
-    vec4 place = texelFetch(lights, i * LIGHT_TEXELS), axis = texelFetch(lights, i * LIGHT_TEXELS + 2);
+    vec4 place = texelFetch(lights, i * LIGHT_TEXELS);
     vec3 one = punctual(m, p, place, texelFetch(lights, i * LIGHT_TEXELS + 1), row, f.occlusion);
-    vec3 toPoint = normalize(p - place.xyz + vec3(1e-20));
-    sum += one * spotAttenuation(dot(axis.xyz, toPoint), axis.w, texelFetch(lights, i * LIGHT_TEXELS + 3).x);
+    sum += one * inCone(p, place, texelFetch(lights, i * LIGHT_TEXELS + 2), texelFetch(lights, i * LIGHT_TEXELS + 3).x);
   }
 #if ENVIRONMENT
   sum += surroundings(m, f.occlusion);

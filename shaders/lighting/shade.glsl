@@ -49,6 +49,12 @@ vec3 punctual(Surface m, vec3 p, vec4 place, vec4 color, float row, float occlus
   return shadeLight(m, l * inverse, row, occlusion) * (color.rgb * e);
 }
 
+// Share of a spot light's intensity that goes toward p. axis: direction + spot scale (shading/light.h). Under 1 cm the direction shortens with the distance: the cone ends softly.
+float inCone(vec3 p, vec4 place, vec4 axis, float offset) {
+  vec3 toPoint = p - place.xyz;
+  return spotAttenuation(dot(axis.xyz, toPoint) * inversesqrt(max(dot(toPoint, toPoint), BURNISH_GUARD_DISTANCE2)), axis.w, offset);
+}
+
 #if ENVIRONMENT
 #if RUNG_ENVIRONMENT_SPECULAR == ENVIRONMENT_SPECULAR_SAMPLED
 #define SAMPLES 256
@@ -73,10 +79,10 @@ vec3 sampledReflection(Surface m) {
     vec3 l = phong ? world : world * (2.0 * voh) - m.v;
     if (dot(m.n, l) <= 0.0 || voh <= 0.0 && !phong) continue;
     float density = twoWidths ? D_beckmannAnisotropic(h.x, h.y, 1.0 - sin2, m.alphaX, m.alphaY) * h.z : lobeDensity(sin2, m.alpha, family);
-    if (!phong) density /= 4.0 * max(voh, 1e-4);
+    if (!phong) density /= 4.0 * max(voh, BURNISH_GUARD_NOV);
     Angles a = anglesOf(m, l);
-    float level = environmentLevel(min(sqrt(sqrt(1.0 / (4.0 * BURNISH_PI * float(SAMPLES) * max(density, 1e-6)))), 1.0), lastLevel());
-    sum += textureLod(environmentCube, l, level).rgb * fresnelRung(m.f0, m.eta, m.k, a.loh, RUNG_FRESNEL) * (specularRung(m, a, kRungs) / max(density, 1e-6));
+    float level = environmentLevel(min(sqrt(sqrt(1.0 / (4.0 * BURNISH_PI * float(SAMPLES) * max(density, BURNISH_GUARD_VISIBILITY)))), 1.0), lastLevel());
+    sum += textureLod(environmentCube, l, level).rgb * fresnelRung(m.f0, m.eta, m.k, a.loh, RUNG_FRESNEL) * (specularRung(m, a, kRungs) / max(density, BURNISH_GUARD_VISIBILITY));
   }
   return sum * (frame.background.w / float(SAMPLES));
 }
@@ -84,7 +90,7 @@ vec3 sampledReflection(Surface m) {
 
 // What the surface reflects of the surroundings.
 vec3 surroundings(Surface m, float occlusion) {
-  vec3 ambient = max(ambientAt(m.n), vec3(0.0));
+  vec3 ambient = max(ambientAt(m.n), vec3(0.0));  // model: three bands of harmonics ring below 0
 #if RUNG_ENVIRONMENT_SPECULAR == ENVIRONMENT_SPECULAR_NONE
   vec3 specular = vec3(0.0);
 #elif RUNG_ENVIRONMENT_SPECULAR == ENVIRONMENT_SPECULAR_SAMPLED

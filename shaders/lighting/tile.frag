@@ -39,7 +39,7 @@ void main() {
   float occlusion = 1.0;
 #endif
   vec3 toEye;
-  vec3 p = positionAt(gl_FragCoord.xy, max(z, 1e-30), ray[0], ray[1], ray[2], toEye);
+  vec3 p = positionAt(gl_FragCoord.xy, max(z, BURNISH_GUARD_LENGTH), ray[0], ray[1], ray[2], toEye);
   Surface m = surfaceAt(a, b, toEye);
   float row = findEnergy(m);
   vec3 sum = vec3(0.0);
@@ -52,9 +52,7 @@ void main() {
     vec4 place = texelFetch(lights, light);
     vec3 one = punctual(m, p, place, texelFetch(lights, light + 1), row, occlusion);
 #if TILE_LIGHTS == -2
-    vec4 axis = texelFetch(lights, light + 2);
-    vec3 toPoint = normalize(p - place.xyz + vec3(1e-20));
-    one *= spotAttenuation(dot(axis.xyz, toPoint), axis.w, texelFetch(lights, light + 3).x);
+    one *= inCone(p, place, texelFetch(lights, light + 2), texelFetch(lights, light + 3).x);
 #endif
     sum += one;
   }

@@ -3,8 +3,13 @@
 
 #define BURNISH_PI R(3.14159265358979323846)
 
-// Perceptual roughness is held at 0.02 (alpha 4e-4) where it enters the G-buffer: narrower lobes than the normal's 24 bits can carry.
+// Mean square error of the 24-bit octahedral normal, rad² (shading/normals.h; 2 million random unit vectors).
+#define BURNISH_NORMAL_VARIANCE R(1.61e-7)
+
+// Perceptual roughness where it enters the G-buffer; its square is the next guard.
 #define BURNISH_ROUGHNESS_MIN R(0.02)
+
+// Perceptual roughness is held at 0.02 (alpha 4e-4) where it enters the G-buffer: narrower lobes than the normal's 24 bits can carry.
 #define BURNISH_ALPHA_MIN GUARDED(1, R(0.0004), R(1e-30))
 
 // alpha is held at 1e-6 inside the terms, so that 1/alpha^2 and the power 2/alpha^2 - 2 stay finite for any number that comes in.

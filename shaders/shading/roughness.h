@@ -27,6 +27,6 @@ FN real sigmaFromAlpha(real alpha) { return alpha * R(0.70710678118654752); }
 FN real encodeAlpha(real alpha) { return R(1.0) + log2(max(unitClamp(alpha), BURNISH_ALPHA_MIN)) / R(11.287712379549449); }
 // The alpha to store beside a 24-bit normal: the rounding of the normal (mean square 1.61e-7 rad²) spreads a highlight like facets of that variance, alpha² + 1.61e-7, so it is taken
 // off beforehand. Without it the peak at r = 0.05 would lose 2.6 %; at r = 0.1 it is 0.2 %.
-FN real storedAlpha(real alpha) { return sqrt(max(alpha * alpha - R(1.61e-7), BURNISH_ALPHA_MIN * BURNISH_ALPHA_MIN)); }
+FN real storedAlpha(real alpha) { return sqrt(max(alpha * alpha - BURNISH_NORMAL_VARIANCE, BURNISH_ALPHA_MIN * BURNISH_ALPHA_MIN)); }
 
 FN real decodeAlpha(real code) { return exp2((code - R(1.0)) * R(11.287712379549449)); }

@@ -1,0 +1,39 @@
+// What the cases of engine/stability/shader_cases.h and the tests ask of the shading text in one call each; GLSL and C++ alike (shading/bridge.h).
+// n: normal and alpha; l, v: directions; albedo: with the substance; dfg: the lobe's (scale, bias) at n·v and at n·l; mean: over the hemisphere.
+
+FN Surface surfaceCase(vec4 n, vec4 v, vec4 albedo) { return makeSurface(vec3(n), vec3(v), vec3(albedo), albedo.w, n.w); }
+
+FN Surface tableCase(vec4 n, vec4 v, vec4 albedo, vec4 dfg, vec4 mean) {
+  Surface m = surfaceCase(n, v, albedo);
+  m.dfg = vec2(dfg);
+  m.dfgMean = vec2(mean);
+  return m;
+}
+
+FN vec4 shadeCase(vec4 n, vec4 l, vec4 v, vec4 albedo, vec4 dfg, vec2 mean, Rungs k) {
+  return vec4(shadeDirection(tableCase(n, v, albedo, dfg, vec4(mean, R(0.0), R(0.0))), vec3(l), vec2(dfg.z, dfg.w), k), R(0.0));
+}
+
+// tangent: with the strength of anisotropy; index: two of a conductor's indices, then two of its extinctions.
+FN Surface metalCase(vec4 n, vec4 v, vec4 albedo, vec4 tangent, vec4 index) {
+  Surface m = surfaceCase(n, v, albedo);
+  setTangent(m, vec3(tangent), tangent.w);
+  m.eta = vec3(index.x, index.y, index.x);
+  m.k = vec3(index.z, index.z, index.w);
+  return m;
+}
+
+// The refracted direction and the transmittance.
+FN vec4 refractCase(vec3 toEye, vec3 n, real eta) {
+  vec3 direction;
+  real transmittance = refractSnell(toEye, n, eta, direction);
+  return vec4(direction, transmittance);
+}
+
+// The tangent or the bitangent of basisFrom.
+FN vec4 basisCase(vec3 n, bool second) {
+  vec3 t;
+  vec3 b;
+  basisFrom(n, t, b);
+  return vec4(second ? b : t, R(0.0));
+}
