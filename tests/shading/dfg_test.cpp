@@ -175,6 +175,17 @@ TEST_CASE("DFG: cheaper normalizations and the models that share a table") {
       }
 }
 
+TEST_CASE("DFG: the library's lookup reads as a renderer does") {
+  for (const shading::Rungs& k : specularRungs())
+    for (const Point& p : points(30)) {
+      const DfgTable t = dfgTable(dfgIndex(k));
+      const double scale = f64::dfgScale(f64::powerFromAlpha(p.alpha), k);
+      CAPTURE(nameOf(k), p.nov, p.alpha);
+      CHECK(errorOf(lookUpDfg(k, p.nov, p.alpha), read(t, p.nov, p.alpha) * scale) < 1e-5);
+      CHECK(errorOf(lookUpDfgMean(k, p.alpha), readMean(t, p.alpha) * scale) < 1e-5);
+    }
+}
+
 TEST_CASE("DFG: coordinates and what they stand for") {
   for (int i = 0; i <= 100; ++i) {
     const double x = i / 100.0;
