@@ -55,7 +55,7 @@ constexpr Rung kLobe[] = {
     {"stable", "exp(p/2 ln(1 - |n x h|^2)): keeps them", "docs/shading.md, section 3"},
 };
 constexpr Rung kFresnel[] = {
-    {"none", "F0 at every angle", ""},
+    {"none", "F0 at every angle", "Phong 1975: a constant"},
     {"schlick", "F0 + (1 - F0)(1 - l.h)^5", "Schlick 1994, eq. 15"},
     {"spherical-gaussian", "the same with an exponential", "Lagarde 2012; Karis 2013, eq. 5"},
     {"dielectric", "Fresnel's equations, index from F0", "Born and Wolf, section 1.5.2, eq. 20 and 21"},
@@ -71,33 +71,33 @@ constexpr Rung kDiffuse[] = {
     {"oren-nayar-energy", "rough diffuse that loses nothing, coupled", "Portsmouth, Kutz and Hill 2025"},
 };
 constexpr Rung kCompensation[] = {
-    {"none", "light that hits more than one facet is lost", ""},
+    {"none", "light that hits more than one facet is lost", "Torrance and Sparrow 1967: single scattering"},
     {"multiple-scattering", "it is given back as a lobe of its own", "Kulla and Conty 2017, slides 13 to 18"},
 };
 constexpr Rung kEnvironmentSpecular[] = {
-    {"none", "no reflections", ""},
+    {"none", "no reflections", "the term left out"},
     {"schlick", "Schlick's F(n.v) times the prefiltered reflection: rough edges glow", "the talk that the project grew from"},
     {"rough-schlick", "F0 + (max(1 - r, F0) - F0)(1 - n.v)^5", "Lagarde 2011, Adopting a physically based shading model"},
     {"dfg", "F0 scale + bias, integrated for the very lobe in force", "Karis 2013, eq. 8"},
     {"sampled", "256 samples of the lobe in force (reference)", "Walter et al. 2007, section 5.3"},
 };
 constexpr Rung kAmbient[] = {
-    {"none", "no ambient light", ""},
+    {"none", "no ambient light", "the term left out"},
     {"constant", "the mean of the surroundings", "Ramamoorthi and Hanrahan 2001, band 0"},
     {"sh-l1", "spherical harmonics up to band 1", "Ramamoorthi and Hanrahan 2001, band 1"},
     {"sh-l2", "spherical harmonics up to band 2", "Ramamoorthi and Hanrahan 2001, eq. 13"},
 };
 constexpr Rung kOcclusion[] = {
-    {"none", "ambient light reaches everything", ""},
+    {"none", "ambient light reaches everything", "the term left out"},
     {"baked", "map C's ambient occlusion on ambient diffuse", "Zhukov, Iones and Kronin 1998"},
 };
 constexpr Rung kSpecularOcclusion[] = {
-    {"none", "reflections reach everything", ""},
-    {"ao", "ambient occlusion on reflections", ""},
+    {"none", "reflections reach everything", "the term left out"},
+    {"ao", "ambient occlusion on reflections", "the talk that the project grew from"},
     {"lagarde", "saturate((n.v + ao)^(2^(-16 alpha - 1)) - 1 + ao)", "Lagarde and de Rousiers 2014, listing 26"},
 };
 constexpr Rung kDirectOcclusion[] = {
-    {"none", "lights are not occluded by ambient occlusion", ""},
+    {"none", "lights are not occluded by ambient occlusion", "the term left out"},
     {"specular", "ambient occlusion on the highlights of lights", "the talk that the project grew from"},
 };
 constexpr Rung kPath[] = {

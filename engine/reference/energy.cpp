@@ -9,13 +9,14 @@ namespace f64 = shading::f64;
 // F = F0 + (1 - F0) (1 - l·h)^5 splits the integral of f (n·l) into scale and bias (Karis 2013, "Real Shading in Unreal Engine 4", eq. 8).
 glm::dvec2 lobeAlbedo(const shading::Rungs& rungs, double nov, double alpha, bool fine) {
   const f64::Surface m = f64::makeSurface({0, 0, 1}, directionAt(nov), glm::dvec3(1), 1, alpha);
-  const Resolution resolution = fine ? Resolution{96, 96} : Resolution{40, 32};
+  static const Rules kFine(Resolution{96, 96}), kUsual(Resolution{40, 32});
+  const Rules& rules = fine ? kFine : kUsual;
   const auto integrand = [&](const glm::dvec3& l) {
     const f64::Angles a = f64::anglesOf(m, l);
     const double w = f64::schlickWeight(a.loh);
     return glm::dvec2(1 - w, w) * f64::specularRung(m, a, rungs);
   };
-  return lobeFamily(rungs) == LOBE_FAMILY_PHONG ? integrateMirror<glm::dvec2>(nov, alpha, integrand, resolution) : integrateHalf<glm::dvec2>(nov, alpha, integrand, resolution);
+  return lobeFamily(rungs) == LOBE_FAMILY_PHONG ? integrateMirror<glm::dvec2>(nov, alpha, integrand, rules) : integrateHalf<glm::dvec2>(nov, alpha, integrand, rules);
 }
 
 glm::dvec2 lobeAlbedoMean(const shading::Rungs& rungs, double alpha, bool fine) {

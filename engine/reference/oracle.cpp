@@ -33,6 +33,7 @@ glm::dvec3 shade(const OracleSurface& surface, std::span<const OracleLight> ligh
 
 // The lobe takes nodes where its half vectors are, what is smooth takes nodes over the hemisphere. Quadrature is done in the frame of a normal +z and a view in the xz plane.
 DirectionalAlbedo directionalAlbedo(const OracleSurface& surface, const shading::Rungs& rungs, const Resolution& resolution) {
+  const Rules rules(resolution);
   const auto energy = energyOf(rungs, surface.alpha);
   const double nov = std::clamp(glm::dot(surface.n, surface.v), 1e-9, 1.0);
   OracleSurface local = surface;
@@ -44,11 +45,11 @@ DirectionalAlbedo directionalAlbedo(const OracleSurface& surface, const shading:
     return f64::fresnelRung(m.f0, m.eta, m.k, a.loh, rungs.fresnel) * f64::specularRung(m, a, rungs);
   };
   DirectionalAlbedo sum;
-  sum.specular = lobeFamily(rungs) == LOBE_FAMILY_PHONG ? integrateMirror<glm::dvec3>(nov, surface.alpha, lobe, resolution) : integrateHalf<glm::dvec3>(nov, surface.alpha, lobe, resolution);
+  sum.specular = lobeFamily(rungs) == LOBE_FAMILY_PHONG ? integrateMirror<glm::dvec3>(nov, surface.alpha, lobe, rules) : integrateHalf<glm::dvec3>(nov, surface.alpha, lobe, rules);
   sum.diffuse = integrateCosine<glm::dvec3>(
-      [&](const glm::dvec3& l) { return f64::diffuseRung(m, f64::anglesOf(m, l), energy ? energy->at(l.z) : glm::dvec2(0), rungs) * l.z; }, resolution);
+      [&](const glm::dvec3& l) { return f64::diffuseRung(m, f64::anglesOf(m, l), energy ? energy->at(l.z) : glm::dvec2(0), rungs) * l.z; }, rules);
   if (rungs.compensation != COMPENSATION_NONE) {
-    const double again = integrateCosine<double>([&](const glm::dvec3& l) { return f64::multipleScatteringLobe(m.dfg, energy->at(l.z), m.dfgMean) * l.z; }, resolution);
+    const double again = integrateCosine<double>([&](const glm::dvec3& l) { return f64::multipleScatteringLobe(m.dfg, energy->at(l.z), m.dfgMean) * l.z; }, rules);
     for (int i = 0; i < 3; ++i) sum.specular[i] += f64::scatteredShare(m.f0[i], m.dfgMean, rungs.fresnel) * again;
   }
   return sum;

@@ -40,9 +40,9 @@ inline double uOf(double theta, double alpha2) {
 }  // namespace detail
 
 template <class Visit>
-void visitHalf(double nov, double alpha, const Resolution& resolution, Visit&& visit) {
+void visitHalf(double nov, double alpha, const Rules& rules, Visit&& visit) {
   using detail::kPi;
-  const GaussRule polar(resolution.polar), azimuth(resolution.azimuth);
+  const auto& [polar, azimuth] = rules;
   const glm::dvec3 v = directionAt(nov);
   const double alpha2 = alpha * alpha, thetaV = std::acos(std::min(nov, 1.0));
   // l is above the horizon for whole rings up to 45° - θv/2, for none past 45° + θv/2.
@@ -66,16 +66,16 @@ void visitHalf(double nov, double alpha, const Resolution& resolution, Visit&& v
 }
 
 template <class T, class F>
-T integrateHalf(double nov, double alpha, F&& f, const Resolution& resolution) {
+T integrateHalf(double nov, double alpha, F&& f, const Rules& rules) {
   T sum(0);
-  visitHalf(nov, alpha, resolution, [&](const glm::dvec3& l, double weight) { sum += f(l) * weight; });
+  visitHalf(nov, alpha, rules, [&](const glm::dvec3& l, double weight) { sum += f(l) * weight; });
   return sum;
 }
 
 template <class T, class F>
-T integrateMirror(double nov, double alpha, F&& f, const Resolution& resolution) {
+T integrateMirror(double nov, double alpha, F&& f, const Rules& rules) {
   using detail::kPi;
-  const GaussRule polar(resolution.polar), azimuth(resolution.azimuth);
+  const auto& [polar, azimuth] = rules;
   const glm::dvec3 r(-directionAt(nov).x, 0, nov), side(0, 1, 0), up = glm::cross(side, r) * -1.0;  // up: in the plane, away from the horizon (up.z >= 0)
   const double width2 = 4 * alpha * alpha, theta = std::acos(std::min(nov, 1.0));
   const glm::dvec3 across = up.z < 0 ? -up : up;
@@ -103,9 +103,9 @@ T integrateMirror(double nov, double alpha, F&& f, const Resolution& resolution)
 }
 
 template <class T, class F>
-T integrateCosine(F&& f, const Resolution& resolution) {
+T integrateCosine(F&& f, const Rules& rules) {
   using detail::kPi;
-  const GaussRule polar(resolution.polar), azimuth(resolution.azimuth);
+  const auto& [polar, azimuth] = rules;
   T sum(0);
   for (std::size_t i = 0; i < polar.node.size(); ++i) {
     const double c = polar.node[i], s = std::sqrt(1 - c * c);

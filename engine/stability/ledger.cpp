@@ -100,21 +100,21 @@ dvec3 reflected(const Rungs& k, double roughness, double nov, Energies& energies
     m.dfgMean = table->mean();
   }
   const auto toward = [&](const dvec3& l) { return table ? table->at(l.z) : dvec2(0); };
-  const reference::Resolution resolution{24, 16};
+  static const reference::Rules kRules(reference::Resolution{24, 16});
   const auto specular = [&](const dvec3& l) {
     dvec3 d, s;
     T::shadeParts(m, l, toward(l), k, d, s);
     return s;
   };
-  dvec3 sum = shading::lobeFamily(k) == LOBE_FAMILY_PHONG ? reference::integrateMirror<dvec3>(nov, alpha, specular, resolution)
-                                                         : reference::integrateHalf<dvec3>(nov, alpha, specular, resolution);
+  dvec3 sum = shading::lobeFamily(k) == LOBE_FAMILY_PHONG ? reference::integrateMirror<dvec3>(nov, alpha, specular, kRules)
+                                                         : reference::integrateHalf<dvec3>(nov, alpha, specular, kRules);
   sum += reference::integrateCosine<dvec3>(
       [&](const dvec3& l) {
         dvec3 d, s;
         T::shadeParts(m, l, toward(l), k, d, s);
         return d;
       },
-      resolution);
+      kRules);
   return sum;
 }
 

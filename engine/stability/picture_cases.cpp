@@ -15,10 +15,18 @@ using glm::vec3;
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInfinity = std::numeric_limits<float>::infinity();
 
-Result<Finding> nonfinite(const ProcAddress& gl, Renderer& renderer, const Scene& scene, std::string where) {
-  const auto p = draw(gl, renderer, scene, lookAt({0, 0.5, 4}, {0, 0, 0}, {0, 1, 0}, 0.7f), {64, 64}, {});
-  if (!p) return fail(p.error());
-  return Finding{double(p->nonfinite), p->nonfinite ? std::move(where) : std::string()};
+// On both paths: the deferred one stops at the G-buffer what is no number, the forward one must not need that.
+Result<Finding> nonfinite(const ProcAddress& gl, Renderer& renderer, const Scene& scene, const std::string& where) {
+  Finding found;
+  for (const Path path : {Path::Deferred, Path::Forward}) {
+    Quality quality;
+    quality.path = path;
+    const auto p = draw(gl, renderer, scene, lookAt({0, 0.5, 4}, {0, 0, 0}, {0, 1, 0}, 0.7f), {64, 64}, {}, quality);
+    if (!p) return fail(p.error());
+    if (p->nonfinite && found.value == 0) found.where = where + (path == Path::Forward ? ", forward path" : "");
+    found.value += double(p->nonfinite);
+  }
+  return found;
 }
 
 /// The sum over scenes, each with a name.

@@ -47,7 +47,7 @@ TextCase whiteMetal(const shading::Rungs& k) {
       const double alpha = double(float(r * r));
       const glm::dvec2 truth = reference::lobeAlbedo(k, nov, alpha, true);
       const vec3 v(frame.world(reference::directionAt(nov)));
-      reference::visitHalf(nov, alpha, {24, 24}, [&](const dvec3& l, double weight) {
+      reference::visitHalf(nov, alpha, reference::Resolution{24, 24}, [&](const dvec3& l, double weight) {
         // Half of the directions stand for both sides of the plane of incidence.
         c.inputs.push_back({vec4(vec3(frame.n), float(alpha)), vec4(vec3(frame.world(l)), float(weight)), vec4(v, 0), vec4(1), vec4(0), vec4(0, 0, float(cells.size()), 0)});
       });

@@ -200,6 +200,7 @@ int main(int argc, char** argv) {
   auto scene = loadScene(a.scene, {}, report);
   if (!scene) stop(scene.error());
   s.scene = std::move(*scene);
+  for (const Warning& w : report.warnings()) std::cerr << "rung_costs: warning: " << w.message() << '\n';
   bool found = false;
   s.scene.cameras.each([&](Id<Camera>, const Camera& camera) {
     if (camera.name == a.camera) s.view = viewOf(s.scene, camera), found = true;
