@@ -1,4 +1,5 @@
-// Diffuse reflectance distributions, per albedo where they are proportional to it. nol, nov in [0, 1]; lov = l·v; sigma: standard deviation of the facets' angle, radians, [0, 1].
+// Diffuse reflectance distributions, per albedo where they are proportional to it. nol, nov, the albedo rho in [0, 1]; lov = l·v; sigma: standard deviation of the facets' angle,
+// radians, [0, 1].
 // All are reciprocal; results are finite and not negative for any finite input.
 
 FN real Fd_lambert() { return R(1.0) / BURNISH_PI; }
@@ -37,8 +38,9 @@ FN real Fd_orenNayar(real nol, real nov, real lov, real sigma, real rho) {
   real product = R(4.0) * larger * smaller / (BURNISH_PI * BURNISH_PI);
   real c3 = R(0.125) * s2 / (s2 + R(0.09)) * product * product;
   real direct = c1 + cosPhi * c2 * tanSmaller + (R(1.0) - abs(cosPhi)) * c3 * tanHalf;
-  real between = R(0.17) * rho * s2 / (s2 + R(0.13)) * (R(1.0) - cosPhi * ratio * ratio);
-  return notNegative(rho * (direct + between) / BURNISH_PI);
+  real albedo = unitClamp(rho);
+  real between = R(0.17) * albedo * s2 / (s2 + R(0.13)) * (R(1.0) - cosPhi * ratio * ratio);
+  return notNegative(albedo * (direct + between) / BURNISH_PI);
 }
 
 // Fujii's form of the qualitative model keeps its ratio B/A: the roughness of the next two functions, in [0, 1].
@@ -64,9 +66,10 @@ FN real Fd_orenNayarEnergy(real nol, real nov, real lov, real sigma, real rho) {
   real s = azimuthTerm(l, v, lov);
   real t = s > R(0.0) ? s / max(max(l, v), BURNISH_GUARD_NOV) : s;  // model: the larger cosine
   real a = R(1.0) / (R(1.0) + (R(0.5) - R(2.0) / (R(3.0) * BURNISH_PI)) * rough);
-  real single = rho * a * (R(1.0) + rough * t);
+  real albedo = unitClamp(rho);
+  real single = albedo * a * (R(1.0) + rough * t);
   real mean = a * (R(1.0) + (R(2.0) / R(3.0) - R(28.0) / (R(15.0) * BURNISH_PI)) * rough);
   real lost = notNegative(R(1.0) - a * fujiiAlbedo(l, rough)) * notNegative(R(1.0) - a * fujiiAlbedo(v, rough)) / max(R(1.0) - mean, BURNISH_GUARD_LOSS);
-  real again = rho * rho * mean / max(R(1.0) - rho * (R(1.0) - mean), BURNISH_GUARD_LOSS) * lost;
+  real again = albedo * albedo * mean / max(R(1.0) - albedo * (R(1.0) - mean), BURNISH_GUARD_LOSS) * lost;
   return notNegative(single + again) / BURNISH_PI;
 }

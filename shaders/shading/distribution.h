@@ -1,5 +1,5 @@
 // Distributions of microfacet normals, normalized so that the integral of D (n·h) over the hemisphere is 1; zero or more for any finite input.
-// sin2 = |n×h|² (any number, taken into [0, 1]); alpha in (0, 1], held above BURNISH_GUARD_ALPHA; p >= 0.
+// sin2 = |n×h|² and alpha: any numbers, taken into [0, 1] and [BURNISH_GUARD_ALPHA, 1]; p >= 0.
 
 // Blinn-Phong: (p + 2)/(2 pi) (n·h)^p. Blinn 1977; normalization: Sloup and Krivanek; `lobe` is (n·h)^p from lobe.h.
 FN real D_blinnPhong(real lobe, real p) { return (p + R(2.0)) * lobe / (R(2.0) * BURNISH_PI); }
@@ -8,7 +8,7 @@ FN real D_blinnPhong(real lobe, real p) { return (p + R(2.0)) * lobe / (R(2.0) *
 FN real D_beckmann(real sin2, real alpha) {
   real s = unitClamp(sin2);
   real c2 = max(R(1.0) - s, BURNISH_GUARD_COS2);
-  real a = max(alpha, BURNISH_GUARD_ALPHA);
+  real a = max(unitClamp(alpha), BURNISH_GUARD_ALPHA);
   real a2 = a * a;
   return exp2(R(-1.4426950408889634) * s / (c2 * a2)) / (BURNISH_PI * a2 * c2 * c2);
 }
@@ -16,7 +16,7 @@ FN real D_beckmann(real sin2, real alpha) {
 // GGX: alpha² / (pi (cos² (alpha² - 1) + 1)²). Walter et al. 2007, eq. 33, with cos² = 1 - sin²: nothing cancels near the normal.
 FN real D_ggx(real sin2, real alpha) {
   real s = unitClamp(sin2);
-  real a = max(alpha, BURNISH_GUARD_ALPHA);
+  real a = max(unitClamp(alpha), BURNISH_GUARD_ALPHA);
   real a2 = a * a;
   real d = s + a2 * (R(1.0) - s);
   return a2 / (BURNISH_PI * d * d);
@@ -24,8 +24,8 @@ FN real D_ggx(real sin2, real alpha) {
 
 // Beckmann's with two widths: h's components along tangent, bitangent and normal. Walter's equation with tan² split along the axes (Ward 1992, eq. 5a).
 FN real D_beckmannAnisotropic(real hx, real hy, real cos2, real alphaX, real alphaY) {
-  real ax = max(alphaX, BURNISH_GUARD_ALPHA);
-  real ay = max(alphaY, BURNISH_GUARD_ALPHA);
+  real ax = max(unitClamp(alphaX), BURNISH_GUARD_ALPHA);
+  real ay = max(unitClamp(alphaY), BURNISH_GUARD_ALPHA);
   real c2 = max(unitClamp(cos2), BURNISH_GUARD_COS2);
   real x = heldLarge(hx) / ax;
   real y = heldLarge(hy) / ay;

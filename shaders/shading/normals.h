@@ -12,6 +12,7 @@ FN vec2 octahedralEncode(vec3 n) {
   return vec2(x, y);
 }
 
+// e in [-1, 1]², which any three bytes unpack to.
 FN vec3 octahedralDecode(vec2 e) {
   real z = R(1.0) - abs(e.x) - abs(e.y);
   real t = notNegative(-z);

@@ -1,5 +1,5 @@
 // Perceptual roughness r, width alpha = r², Blinn-Phong power p = 2/alpha² - 2 (the Beckmann-equivalent power: Walter et al. 2007, "Microfacet Models for
-// Refraction through Rough Surfaces", section 5.2). Inputs: r, alpha in [0, 1], p >= 0; any finite number gives a finite one.
+// Refraction through Rough Surfaces", section 5.2). Inputs: r, alpha and codes in [0, 1], p >= 0. alphaFromPower, powerFromAlpha and encodeAlpha bear any finite number.
 
 FN real alphaFromRoughness(real r) { return r * r; }
 

@@ -20,13 +20,13 @@ FN vec3 fromPolar(real sin2, real w) {
 FN real sampleCosinePower(real u, real n) { return unitClamp(oneMinusExp(R(-1.3862943611198906) * log2(max(unitClamp(u), BURNISH_GUARD_RANDOM)) / (notNegative(n) + R(1.0)))); }
 // tan² = -alpha² ln u
 FN real sampleBeckmann(real u, real alpha) {
-  real a = max(alpha, BURNISH_GUARD_ALPHA);
+  real a = max(unitClamp(alpha), BURNISH_GUARD_ALPHA);
   real t2 = a * a * R(-0.69314718055994531) * log2(max(unitClamp(u), BURNISH_GUARD_RANDOM));
   return t2 / (R(1.0) + t2);
 }
 // tan² = alpha² (1 - u)/u
 FN real sampleGgx(real u, real alpha) {
-  real a = max(alpha, BURNISH_GUARD_ALPHA);
+  real a = max(unitClamp(alpha), BURNISH_GUARD_ALPHA);
   real x = max(unitClamp(u), BURNISH_GUARD_RANDOM);
   real t2 = a * a * (R(1.0) - x);
   return t2 / (x + t2);
@@ -58,8 +58,8 @@ FN real lobeDensity(real sin2, real alpha, int family) {
 FN vec3 sampleAnisotropic(real u, real w, real alphaX, real alphaY) {
   real radius = sqrt(R(-0.69314718055994531) * log2(max(unitClamp(u), BURNISH_GUARD_RANDOM)));
   real phi = R(2.0) * BURNISH_PI * w;
-  real x = max(alphaX, BURNISH_GUARD_ALPHA) * radius * cos(phi);
-  real y = max(alphaY, BURNISH_GUARD_ALPHA) * radius * sin(phi);
+  real x = max(unitClamp(alphaX), BURNISH_GUARD_ALPHA) * radius * cos(phi);
+  real y = max(unitClamp(alphaY), BURNISH_GUARD_ALPHA) * radius * sin(phi);
   real inverse = inversesqrt(R(1.0) + x * x + y * y);
   return vec3(x * inverse, y * inverse, inverse);
 }

@@ -50,7 +50,8 @@ FN Surface makeSurface(vec3 n, vec3 v, vec3 albedo, real substance, real alpha) 
 // Tangents for the anisotropic rungs: strength in [0, 1] widens the lobe along the tangent, alpha_t = mix(alpha, 1, strength²) (KHR_materials_anisotropy).
 // tangent: any length; one that is no direction, or lies along the normal, leaves the surface isotropic.
 FN void setTangent(INOUT(Surface) m, vec3 tangent, real strength) {
-  vec3 t = tangent - m.n * dot(m.n, tangent);
+  vec3 held = vec3(heldLarge(tangent.x), heldLarge(tangent.y), heldLarge(tangent.z));
+  vec3 t = held - m.n * dot(m.n, held);
   real length2 = dot(t, t);
   if (length2 <= BURNISH_GUARD_LENGTH) return;
   m.t = t * inversesqrt(length2);
