@@ -1,0 +1,107 @@
+// The table's rows for functions of numbers: conversions, lobes, distributions, normalizations, visibility.
+#include <cfloat>
+
+#include "shading/test_rungs.h"
+#include "text_bounds.h"
+#include "text_domains.h"
+
+namespace burnish::test {
+namespace {
+
+double powerOf(const Case& in) { return double(in[0].y); }
+
+/// An ulp of a cosine near 1 costs p times as much in its power.
+Scale ulpsOfCosine() {
+  return {" of the peak or of p ulp", [](const Row&, const Case& in, const glm::dvec4&, int) { return std::min(1.0, 1e-5 + powerOf(in) * 0x1p-23); }};
+}
+Scale ofPeak() {
+  return {" of the peak", [](const Row& row, const Case& in, const glm::dvec4&, int k) { return row.ranges(row, in)[std::size_t(k)].hi; }};
+}
+
+/// (n·h, p, |n×h|², |r - v|²), inside the lobe; b: n·l + n·v and 1/|l + v|².
+Case insideLobe(Random& random) {
+  const float p = kPower.ordinary(random), x = std::min(1.0f, uniform(random, 0, 12) / (p + 2)), s = uniform(random, 0.5f, 2), c = std::sqrt(1 - x);
+  return {glm::vec4(c, p, x, std::min(2.0f, uniform(random, 0, 24) / (0.25f * p + 1))), glm::vec4(c * s, 1 / (s * s), 0, 0)};
+}
+const Domain kLobe{"lobes", insideLobe, numbers("", {kCosine, kPower, kSin2, kAny, kAny, kAny}).adverse};
+const Domain kConversion = numbers("conversions", {kUnit, kAlpha, kPower});
+const Domain kDistributions = numbers("distributions", {kSin2, kAlpha, kUnit, kPower});
+const Domain kNormalizations = numbers("normalizations", {kZero, kPower});
+const Domain kVisibility = numbers("visibility", {kCosine, kCosine, kAlpha, kCosine, kCosine});
+const Domain kMasking = numbers("masking", {kCosine, kCosine, kAlphaUnit, kCosine, kCosine});
+const Domain kLogarithms = numbers("logarithms", {kUnit, kPower});
+
+Case gaussian(Random& random) {
+  const float ax = kAlpha.ordinary(random), ay = kAlpha.ordinary(random), x = uniform(random, -2, 2) * ax * 0.5f, y = uniform(random, -2, 2) * ay * 0.5f;
+  const float s = 1 / std::sqrt(1 + x * x + y * y);
+  return {glm::vec4(x * s, y * s, s * s, ax), glm::vec4(ay, 0, 0, 0)};
+}
+const Domain kAnisotropic{"two widths", gaussian, numbers("", {kAny, kAny, kSin2, kAlpha, kAlpha}).adverse};
+
+}  // namespace
+
+void addConversions(std::vector<Row>& rows) {
+  rows.push_back({"alphaFromRoughness, alphaFromPower, sigmaFromAlpha, phongFromBlinnPhong", {}, &kConversion,
+                  TEXT(vec4(alphaFromRoughness(a.x), alphaFromPower(a.z), sigmaFromAlpha(a.y), phongFromBlinnPhong(a.z))), {}, 0, ulp(), 3,
+                  ranges({0, 1}, {0, 1}, {-FLT_MAX, FLT_MAX}, {0, FLT_MAX})});
+  rows.push_back({"blinnPhongFromPhong, ggxFromBeckmann, beckmannFromGgx, storedAlpha", {}, &kConversion,
+                  TEXT(vec4(blinnPhongFromPhong(phongFromBlinnPhong(a.z)), ggxFromBeckmann(a.x), beckmannFromGgx(a.x), storedAlpha(a.x))), {}, 0, ulp(), 3,
+                  ranges({0, FLT_MAX}, {0, 1.2937}, {0, 1}, {4e-4, 1})});
+  rows.push_back({"powerFromAlpha", {}, &kConversion, TEXT(vec4(powerFromAlpha(a.y), R(0.0), R(0.0), R(0.0))), {}, 0,
+                  {" ulp of p + 2", [](const Row&, const Case&, const glm::dvec4& exact, int) { return (exact.x + 2) * 0x1p-23; }}, 3, ranges({0, 2e12})});
+  rows.push_back({"encodeAlpha, decodeAlpha", {}, &kConversion, TEXT(vec4(encodeAlpha(a.y), decodeAlpha(a.x), R(0.0), R(0.0))), {}, 0, absolute(), 8e-7, ranges({-1e-6, 1}, {4e-4, 1})});
+  rows.push_back({"logOneMinus, oneMinusExp", {}, &kLogarithms, TEXT(vec4(logOneMinus(a.x), oneMinusExp(a.y), R(0.0), R(0.0))), {}, 0, relative(), 1e-6,
+                  ranges({-69.08, 0}, {0, 1})});  // ln BURNISH_GUARD_LOG
+}
+
+void addLobes(std::vector<Row>& rows) {
+  const auto unit = ranges({0, 1});
+  rows.push_back({"lobePow", {rungName("lobe", LOBE_POW)}, &kLobe, TEXT(vec4(lobePow(a.x, a.y), R(0.0), R(0.0), R(0.0))), {}, 0, ulpsOfCosine(), {3, 0.05}, unit});
+  rows.push_back({"lobeExp2", {rungName("lobe", LOBE_EXP2)}, &kLobe, TEXT(vec4(lobeExp2(b.x, b.y, a.y), R(0.0), R(0.0), R(0.0))), {}, 0, ulpsOfCosine(), 2, unit});
+  rows.push_back({"lobeStable, lobePhong", {rungName("lobe", LOBE_STABLE)}, &kLobe, TEXT(vec4(lobeStable(a.z, a.y), lobePhong(a.w, phongFromBlinnPhong(a.y)), R(0.0), R(0.0))), {}, 0,
+                  absolute(), 1e-6, ranges({0, 1}, {0, 1})});
+  for (int lobe = LOBE_POW; lobe <= LOBE_STABLE; ++lobe) {
+    // From directions: their own rounding turns h.
+    Row row{"lobeRung, phongRung: " + rungName("lobe", lobe), {rungName("lobe", lobe)}, &kShading,
+            TEXT(vec4(lobeRung(surfaceCase(a, c, d), anglesOf(surfaceCase(a, c, d), vec3(b)), rung), phongRung(surfaceCase(a, c, d), anglesOf(surfaceCase(a, c, d), vec3(b)), rung), R(0.0), R(0.0))),
+            {}, lobe, absolute(), 5e-4, ranges({0, 1}, {0, 1})};
+    if (lobe != LOBE_STABLE) {
+      row.bound = 8;  // the cosine comes from six products, a root and a reciprocal
+      row.scale = {" of the peak or of p ulp", [](const Row&, const Case& in, const glm::dvec4&, int) { return std::min(1.0, 1e-5 + shading::f64::powerFromAlpha(double(in[0].w)) * 0x1p-23); }};
+    }
+    rows.push_back(row);
+  }
+
+  rows.push_back({"D_blinnPhong", {rungName("distribution", DISTRIBUTION_BLINN_PHONG)}, &kDistributions, TEXT(vec4(D_blinnPhong(a.z, a.w), R(0.0), R(0.0), R(0.0))), {}, 0, relative(), 1e-6,
+                  [](const Row&, const Case& in) { return Ranges{{{0, (double(in[0].w) + 2) / (2 * kPi)}}}; }});
+  rows.push_back({"D_beckmann, D_ggx", {rungName("distribution", DISTRIBUTION_BECKMANN), rungName("distribution", DISTRIBUTION_GGX)}, &kDistributions,
+                  TEXT(vec4(D_beckmann(a.x, a.y), D_ggx(a.x, a.y), R(0.0), R(0.0))), {}, 0, ofPeak(), 2e-6, [](const Row&, const Case& in) {
+                    return Ranges{{{0, peakOf(DISTRIBUTION_BECKMANN, double(in[0].y))}, {0, peakOf(DISTRIBUTION_GGX, double(in[0].y))}}};
+                  }});
+  rows.push_back({"D_beckmannAnisotropic", {}, &kAnisotropic, TEXT(vec4(D_beckmannAnisotropic(a.x, a.y, a.z, a.w, b.x), R(0.0), R(0.0), R(0.0))), {}, 0, ofPeak(), 2e-6,
+                  [](const Row&, const Case& in) {
+                    const double c2 = std::clamp(double(in[0].z), 1e-6, 1.0), ax = std::clamp(double(in[0].w), 1e-6, 1.0), ay = std::clamp(double(in[1].x), 1e-6, 1.0);
+                    return Ranges{{{0, 1 / (kPi * ax * ay * c2 * c2)}}};
+                  }});
+  for (int n = NORMALIZATION_NONE; n <= NORMALIZATION_EXACT; ++n) {
+    Row row{rungName("normalization", n), {rungName("normalization", n)}, &kNormalizations, TEXT(vec4(normalizationRung(a.y, rung), dfgScale(a.y, rungs), R(0.0), R(0.0))),
+            defaultRungs(GEOMETRY_VOID), n, relative(), 2e-6, [](const Row& r, const Case& in) {
+              const double p = powerOf(in), most = r.rung == NORMALIZATION_NONE ? 1 : r.rung < NORMALIZATION_PLUS_2 ? 0.0397436 * p + 0.3183 : (p + 8) / (8 * kPi);
+              // Over the exact one, which is 1/pi at p = 0: 1.0752 for (p + 8)/8 pi.
+              return Ranges{{{0, most}, {0, r.rung == NORMALIZATION_NONE ? kPi : 1.0753}}};
+            }};
+    row.rungs.normalization = n;
+    rows.push_back(row);
+  }
+
+  rows.push_back({"visibility terms", {}, &kVisibility, TEXT(vec4(V_schlickSmith(a.x, a.y, a.z), V_smithGgx(a.x, a.y, a.z), V_smithBeckmann(a.x, a.y, a.z), V_vCavity(a.x, a.y, a.w, b.x))), {}, 0,
+                  relative(), 1e-6, within(0, 0.5e12)});  // over BURNISH_GUARD_VISIBILITY
+  // G = 4 n·l n·v V is a share of the facets.
+  rows.push_back({"masking", {}, &kMasking,
+                  TEXT(vec4(V_schlickSmith(a.x, a.y, a.z), V_smithGgx(a.x, a.y, a.z), V_smithBeckmann(a.x, a.y, a.z), V_vCavity(a.x, a.y, a.w, b.x)) * (R(4.0) * unitClamp(a.x) * unitClamp(a.y))), {}, 0,
+                  absolute(), 1e-6, within(0, 1 + 1.4e-4)});
+  rows.push_back({"V_void, V_kelemen, lambdaBeckmann", {}, &kMasking, TEXT(vec4(V_void(), V_kelemen(a.x), lambdaBeckmann(unitClamp(a.x), a.z), R(0.0))), {}, 0, absolute(), 2e-7,
+                  ranges({0.25, 0.25}, {-FLT_MAX, FLT_MAX}, {-1e-4, 1 / 3.535})});
+}
+
+}  // namespace burnish::test
