@@ -7,7 +7,7 @@
 
 namespace burnish::reference {
 
-/// (scale, bias) of the specular rung's directional albedo: E(v) = F0 · scale + bias with Schlick's Fresnel. nov, alpha in (0, 1]. Within 1e-5 where `fine`, 3e-4 elsewhere.
+/// (scale, bias) of the specular rung's directional albedo: E(v) = F0 · scale + bias with Schlick's Fresnel. nov, alpha in (0, 1]. Within 1e-5 where `fine`, elsewhere 5e-4 of max(1, E).
 glm::dvec2 lobeAlbedo(const shading::Rungs& rungs, double nov, double alpha, bool fine = false);
 /// The mean over the hemisphere, 2 ∫ lobeAlbedo c dc.
 glm::dvec2 lobeAlbedoMean(const shading::Rungs& rungs, double alpha, bool fine = false);
