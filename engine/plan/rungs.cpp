@@ -64,7 +64,7 @@ constexpr Rung kFresnel[] = {
 constexpr Rung kDiffuse[] = {
     {"lambert", "albedo/pi, whatever specular takes", "Lambert 1760"},
     {"lambert-fresnel", "albedo/pi (1 - F(l.h)): too bright toward a grazing eye", "Karis 2013"},
-    {"coupled-smooth", "albedo/pi (1 - F(n.v))(1 - F(n.l))/(1 - mean F): what a smooth surface leaves", "Shirley et al. 1997, section 3"},
+    {"coupled-fit", "albedo/pi (1 - e(v))(1 - e(l))/(1 - mean e), e a fit of the default lobe's albedo", "after Shirley et al. 1997, section 3"},
     {"coupled", "albedo/pi (1 - E(v))(1 - E(l))/(1 - mean E): what specular leaves", "Kelemen and Szirmay-Kalos 2001, eq. 8"},
     {"oren-nayar-qualitative", "rough diffuse, two terms, times 1 - F", "Oren and Nayar 1994, eq. 30"},
     {"oren-nayar", "rough diffuse with interreflection, times 1 - F", "Oren and Nayar 1994, eq. 25 to 29"},

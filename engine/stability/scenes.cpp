@@ -55,7 +55,8 @@ void place(Scene& scene, Mesh mesh, const Material& material, const glm::dmat4& 
 }
 
 void addLight(Scene& scene, Light light, dvec3 position, dvec3 direction) {
-  const dvec3 back = -glm::normalize(direction), side = std::abs(back.y) < 0.9 ? dvec3(0, 1, 0) : dvec3(1, 0, 0), right = glm::normalize(glm::cross(side, back));
+  const dvec3 back = glm::normalize(direction) * -1.0;
+  const dvec3 right = glm::normalize(glm::cross(std::abs(back.y) < 0.9 ? dvec3(0, 1, 0) : dvec3(1, 0, 0), back));
   Node node;
   node.local = glm::dmat4(glm::dvec4(right, 0), glm::dvec4(glm::cross(back, right), 0), glm::dvec4(back, 0), glm::dvec4(position, 1));
   light.node = scene.nodes.add(node);

@@ -26,11 +26,21 @@ FN real specularAlbedo(real f0, vec2 dfg, vec2 mean, Rungs k) {
   return unitClamp(e);
 }
 
-// The same for a smooth surface, whose albedo is Fresnel's reflectance itself: (1 - F(n·v))(1 - F(n·l)) / (1 - F mean); with Schlick's 21/20 (1 - F0)(1 - (1 - n·v)^5)(1 - (1 - n·l)^5).
-// Shirley, Hu, Smits and Lafortune 1997, "A Practitioners' Assessment of Light Reflection Models", section 3. No table, reciprocal, and the sum never passes 1 (tests/shading/energy_test),
-// while 1 - F(l·h) lets diffuse keep what specular reflects toward a grazing eye.
-FN real coupledSmoothShare(real f0, real nov, real nol, int fresnel) {
-  return (R(1.0) - fresnelDielectricPart(f0, nov, fresnel)) * (R(1.0) - fresnelDielectricPart(f0, nol, fresnel)) / max(R(1.0) - fresnelMean(f0, fresnel), BURNISH_GUARD_LOSS);
+// A fit of the default lobe's albedo (Blinn-Phong, Kelemen): Fresnel's rise toward grazing, held down on rough surfaces, e = F0 + (F - F0) (1 + 2.8 α²)/(1 + 16 α²) + 0.007.
+// It lies at or above the lobe's own everywhere, so that a white furnace never passes 1 (tests/shading/furnace_test): the last term pays for that.
+// `reflectance`: Fresnel's at one direction, or its mean.
+FN real fittedAlbedo(real f0, real reflectance, real alpha) {
+  real a2 = unitClamp(alpha) * unitClamp(alpha);
+  return unitClamp(f0 + (reflectance - f0) * ((R(1.0) + R(2.8) * a2) / (R(1.0) + R(16.0) * a2)) + R(0.007));
+}
+
+// Diffuse takes what that lobe leaves, on the way in and on the way out: (1 - e(v))(1 - e(l))/(1 - mean e). Reciprocal, no table. Shirley, Hu, Smits and Lafortune 1997, "A Practitioners'
+// Assessment of Light Reflection Models", section 3, is its case of a smooth surface: 21/20 (1 - F0)(1 - (1 - n·v)^5)(1 - (1 - n·l)^5).
+// 1 - F(l·h) in its place lets diffuse keep what specular reflects toward a grazing eye.
+FN real coupledFitShare(real f0, real nov, real nol, real alpha, int fresnel) {
+  real v = R(1.0) - fittedAlbedo(f0, fresnelDielectricPart(f0, nov, fresnel), alpha);
+  real l = R(1.0) - fittedAlbedo(f0, fresnelDielectricPart(f0, nol, fresnel), alpha);
+  return v * l / max(R(1.0) - fittedAlbedo(f0, fresnelMean(f0, fresnel), alpha), BURNISH_GUARD_LOSS);
 }
 
 // Diffuse takes what specular leaves, on the way in and on the way out: (1 - E(v))(1 - E(l)) / (1 - E mean). Kelemen and Szirmay-Kalos 2001, eq. 8 and 9. Reciprocal;

@@ -32,11 +32,11 @@ FN vec3 environmentScattered(Surface m, Rungs k) {
   return vec3(scatteredShare(m.f0.x, m.dfgMean, k.fresnel), scatteredShare(m.f0.y, m.dfgMean, k.fresnel), scatteredShare(m.f0.z, m.dfgMean, k.fresnel)) * lobeLoss(m.dfg);
 }
 
-// What is left for ambient diffuse light, by the diffuse rung: all of it (Lambert), what the rung's own directional albedo is (coupled-smooth: 1 - F(n·v)), or what the dielectric
+// What is left for ambient diffuse light, by the diffuse rung: all of it (Lambert), what the rung's own directional albedo is (coupled-fit: 1 - e(n·v)), or what the dielectric
 // part does not reflect.
 FN real ambientShare(Surface m, int rung, Rungs k) {
   if (k.diffuse == DIFFUSE_LAMBERT) return R(1.0);
-  if (k.diffuse == DIFFUSE_COUPLED_SMOOTH) return R(1.0) - fresnelDielectricPart(m.dielectric, m.nov, k.fresnel);
+  if (k.diffuse == DIFFUSE_COUPLED_FIT) return R(1.0) - fittedAlbedo(m.dielectric, fresnelDielectricPart(m.dielectric, m.nov, k.fresnel), m.alpha);
   if (k.diffuse == DIFFUSE_COUPLED || k.diffuse == DIFFUSE_OREN_NAYAR_ENERGY) return R(1.0) - specularAlbedo(m.dielectric, m.dfg, m.dfgMean, k);
   return unitClamp(R(1.0) - environmentReflectance(m, m.dielectric, rung, k.fresnel));
 }

@@ -6,7 +6,7 @@ FN vec3 diffuseRung(Surface m, Angles a, vec2 dfgL, Rungs k) {
   if (k.diffuse == DIFFUSE_LAMBERT) return m.diffuse * Fd_lambert();
   real share;
   if (k.diffuse == DIFFUSE_COUPLED || k.diffuse == DIFFUSE_OREN_NAYAR_ENERGY) share = coupledShare(m.dielectric, m.dfg, dfgL, m.dfgMean, k);
-  else if (k.diffuse == DIFFUSE_COUPLED_SMOOTH) share = coupledSmoothShare(m.dielectric, m.nov, a.nol, k.fresnel);
+  else if (k.diffuse == DIFFUSE_COUPLED_FIT) share = coupledFitShare(m.dielectric, m.nov, a.nol, m.alpha, k.fresnel);
   else share = R(1.0) - fresnelDielectricPart(m.dielectric, a.loh, k.fresnel);
   real sigma = sigmaFromAlpha(m.alpha);
   if (k.diffuse == DIFFUSE_OREN_NAYAR_QUALITATIVE) return m.diffuse * (share * Fd_orenNayarQualitative(a.nol, m.nov, a.lov, sigma));

@@ -73,7 +73,7 @@ struct Row {
   shading::Rungs rungs;
   int rung;
   Scale scale;
-  Bound bound;  ///< against double on ordinary cases: three to five times what Mesa 22 and libm measure
+  Bound bound;  ///< against double on ordinary cases: three to six times what Mesa 22.3 and libm measure, unless a reason is named
   std::function<Ranges(const Row&, const Case&)> ranges;  ///< proven from the formula, on adverse cases
   [[nodiscard]] std::string glsl() const;
 };

@@ -92,8 +92,8 @@ inline double roughDiffuseCeiling(int diffuse, double l, double v) {
 /// At most diffuseRung, any channel.
 inline double diffuseCeiling(const shading::Rungs& k, const Seen& s) {
   double share = 1;
-  // (1 - F(v))(1 - F(l))/(1 - mean): F is never under F0, mean F = F0 + (1 - F0)/21.
-  if (k.diffuse == DIFFUSE_COUPLED_SMOOTH) share = 1.05;
+  // (1 - e(v))(1 - e(l))/(1 - mean e): e is never under F0, mean e at most F0 + (1 - F0)/21.
+  if (k.diffuse == DIFFUSE_COUPLED_FIT) share = 1.05;
   if (k.diffuse == DIFFUSE_COUPLED || k.diffuse == DIFFUSE_OREN_NAYAR_ENERGY)
     share = 1 / std::max(1 - shading::f64::specularAlbedo(s.m.dielectric, s.m.dfgMean, s.m.dfgMean, k) - 1e-6, 1e-4);  // BURNISH_GUARD_LOSS
   return share * roughDiffuseCeiling(k.diffuse, s.leastNol, s.nov);

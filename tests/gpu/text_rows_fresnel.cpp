@@ -103,9 +103,9 @@ void addDiffuse(std::vector<Row>& rows) {
                     return Ranges{{{0, 1}, {0, 1}, {0, 1}, {0, 1 / (kPi * loss)}}};
                   }});
   // F0 of the dielectric part is at most 0.25, where Fresnel's reflectance rises with the angle.
-  rows.push_back({"coupledSmoothShare", {}, &kFresnelFunctions,
-                  TEXT(vec4(coupledSmoothShare(R(0.25) * a.x, a.y, a.z, FRESNEL_NONE), coupledSmoothShare(R(0.25) * a.x, a.y, a.z, FRESNEL_SCHLICK),
-                            coupledSmoothShare(R(0.25) * a.x, a.y, a.z, FRESNEL_SPHERICAL_GAUSSIAN), coupledSmoothShare(R(0.25) * a.x, a.y, a.z, FRESNEL_DIELECTRIC))),
+  rows.push_back({"fittedAlbedo, coupledFitShare", {}, &kFresnelFunctions,
+                  TEXT(vec4(coupledFitShare(R(0.25) * a.x, a.y, a.z, a.w, FRESNEL_NONE), coupledFitShare(R(0.25) * a.x, a.y, a.z, a.w, FRESNEL_SCHLICK),
+                            coupledFitShare(R(0.25) * a.x, a.y, a.z, a.w, FRESNEL_SPHERICAL_GAUSSIAN), coupledFitShare(R(0.25) * a.x, a.y, a.z, a.w, FRESNEL_DIELECTRIC))),
                   {}, 0, absolute(), 1e-6, within(0, 1.05)});
 }
 

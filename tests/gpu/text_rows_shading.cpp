@@ -71,7 +71,7 @@ void addSpecular(std::vector<Row>& rows) {
     rows.push_back({nameOf(k), coverage(k), &kShading,
                     TEXT(vec4(specularRung(surfaceCase(a, c, d), anglesOf(surfaceCase(a, c, d), vec3(b)), rungs), vec3(shadeCase(a, b, c, d, e, vec2(f), rungs)))), k, 0, ofLobe(), 5e-4, shaded});
   const auto metal = [&](std::string name, const shading::Rungs& k, std::vector<std::string> covers) {
-    rows.push_back({std::move(name), std::move(covers), &kMetal, TEXT(vec4(shadeDirection(metalCase(a, c, d, e, f), vec3(b), vec2(R(0.5), R(0.1)), rungs), R(0.0))), k, 0, ofLobe(), 5e-4, shadedMetal});
+    rows.push_back({std::move(name), std::move(covers), &kMetal, TEXT(vec4(shadeDirection(metalCase(a, c, d, e, f), vec3(b), vec2(R(0.5), R(0.1)), rungs), R(0.0))), k, 0, ofLobe(), 3e-4, shadedMetal});
   };
   for (const int model : {SPECULAR_WARD_ANISOTROPIC, SPECULAR_WARD_BOUNDED}) {
     shading::Rungs k = defaultRungs();

@@ -22,7 +22,7 @@ enum class Geometry : std::uint8_t { Void, Kelemen, SchlickSmith, Smith, VCavity
 enum class Normalization : std::uint8_t { None, LinearFit, LinearFit8, Plus2, Plus8, Exact };
 enum class Lobe : std::uint8_t { Pow, Exp2, Stable };
 enum class Fresnel : std::uint8_t { None, Schlick, SphericalGaussian, Dielectric, Conductor };
-enum class Diffuse : std::uint8_t { Lambert, LambertFresnel, CoupledSmooth, Coupled, OrenNayarQualitative, OrenNayar, OrenNayarEnergy };
+enum class Diffuse : std::uint8_t { Lambert, LambertFresnel, CoupledFit, Coupled, OrenNayarQualitative, OrenNayar, OrenNayarEnergy };
 enum class Compensation : std::uint8_t { None, MultipleScattering };
 enum class EnvironmentSpecular : std::uint8_t { None, Schlick, RoughSchlick, Dfg, Sampled };
 enum class Ambient : std::uint8_t { None, Constant, ShL1, ShL2 };
@@ -38,7 +38,7 @@ struct Quality {
   Normalization normalization = Normalization::Exact;  ///< with Geometry::Void and Distribution::BlinnPhong; elsewhere D has its own
   Lobe lobe = Lobe::Stable;
   Fresnel fresnel = Fresnel::Schlick;
-  Diffuse diffuse = Diffuse::CoupledSmooth;
+  Diffuse diffuse = Diffuse::CoupledFit;
   Compensation compensation = Compensation::None;
   EnvironmentSpecular environmentSpecular = EnvironmentSpecular::Dfg;
   Ambient ambient = Ambient::ShL2;
