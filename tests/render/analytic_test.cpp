@@ -101,13 +101,15 @@ TEST_CASE("the lobe is finite where the half vector lies in the surface") {
 }
 
 TEST_CASE("the middle of a rough sphere lit from the eye, by hand") {
-  // n = l = v, r = 1: alpha 1, power 0, D = 1/pi, V = 1/4, F = F0, diffuse keeps (1 - F0)² over its mean, (1 - F0) 20/21: L = E (albedo (1 - F0) 21/20 + F0/4) / pi.
+  // n = l = v, r = 1: alpha 1, power 0, D = 1/pi, V = 1/4, F = F0: L = E (albedo (1 - F0) + F0/4) / pi with the diffuse rung lambert-fresnel.
   Stage stage;
   Scene scene;
   place(scene, sphere(1, 64, 128), plain(vec3(0.25f), 1, 1.0f / 3));
   addLight(scene, light(LightKind::Directional, vec3(1), 100), {0, 0, 0}, {0, 0, -1});
-  const Picture p = stage.linear(scene, lookAt({0, 0, 4}, {0, 0, 0}), {65, 65});
-  CHECK(p.at(32, 32).x == Approx(100 * (0.25 * 0.96 * 1.05 + 0.01) / kPi).epsilon(0.01));
+  Quality quality;
+  quality.diffuse = Diffuse::LambertFresnel;
+  const Picture p = stage.linear(scene, lookAt({0, 0, 4}, {0, 0, 0}), {65, 65}, quality);
+  CHECK(p.at(32, 32).x == Approx(100 * (0.25 * 0.96 + 0.01) / kPi).epsilon(0.01));
 }
 
 TEST_CASE("point light on a plane: inverse square, with and without a range") {

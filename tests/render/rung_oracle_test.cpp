@@ -73,6 +73,15 @@ std::vector<std::pair<std::string, Quality>> directQualities() {
   all.emplace_back("compensation and coupled diffuse", whole);
   whole.specular = Specular::GgxSmith;
   all.emplace_back("the same with ggx-smith", whole);
+  // The table of void geometry is made with the exact normalization: others scale it.
+  for (Normalization n : {Normalization::LinearFit, Normalization::Plus2, Normalization::Plus8}) {
+    Quality bare;
+    bare.geometry = Geometry::Void;
+    bare.diffuse = Diffuse::Coupled;
+    bare.compensation = Compensation::MultipleScattering;
+    bare.normalization = n;
+    all.emplace_back(fmt::format("{}, compensation and coupled diffuse", terms()[3].rungs[std::size_t(n)].name), bare);
+  }
   REQUIRE(setPreset(whole, "seed"));
   all.emplace_back("seed", whole);
   REQUIRE(setPreset(whole, "exact"));
