@@ -8,6 +8,7 @@ namespace {
 
 const Domain kReflectance = numbers("Fresnel's reflectance", {kUnit, kUnit, kUnit, kCosine, kIndex, kIndex, kIndex, kZero, kExtinction, kExtinction, kExtinction});
 const Domain kFresnelFunctions = numbers("Fresnel's functions", {kUnit, kCosine, kIndex, kExtinction});
+const Domain kFit = numbers("fitted albedo", {kUnit, kCosine, kCosine, kAlpha});
 const Domain kFromInside = numbers("from inside", {kInside, kCosine});
 
 /// toEye above the surface; b: normal; c.x: index.
@@ -102,11 +103,12 @@ void addDiffuse(std::vector<Row>& rows) {
                     const double loss = std::max(1 - double(in[1].z) - double(in[1].w) - 1e-6, 1e-4);
                     return Ranges{{{0, 1}, {0, 1}, {0, 1}, {0, 1 / (kPi * loss)}}};
                   }});
-  // F0 of the dielectric part is at most 0.25, where Fresnel's reflectance rises with the angle.
-  rows.push_back({"fittedAlbedo, coupledFitShare", {}, &kFresnelFunctions,
+  // F0 of the dielectric part is at most 0.25, where Fresnel's reflectance rises with the angle: 1 - e <= q = 1 - F0 - 0.007, 1 - mean e >= q - (1 - F0)/21.
+  rows.push_back({"coupledFitShare", {}, &kFit,
                   TEXT(vec4(coupledFitShare(R(0.25) * a.x, a.y, a.z, a.w, FRESNEL_NONE), coupledFitShare(R(0.25) * a.x, a.y, a.z, a.w, FRESNEL_SCHLICK),
                             coupledFitShare(R(0.25) * a.x, a.y, a.z, a.w, FRESNEL_SPHERICAL_GAUSSIAN), coupledFitShare(R(0.25) * a.x, a.y, a.z, a.w, FRESNEL_DIELECTRIC))),
                   {}, 0, absolute(), 1e-6, within(0, 1.05)});
+  rows.push_back({"fittedAlbedo", {}, &kFit, TEXT(vec4(fittedAlbedo(a.x, a.y, a.w), R(0.0), R(0.0), R(0.0))), {}, 0, absolute(), 1e-6, ranges({0, 1})});
 }
 
 }  // namespace burnish::test
