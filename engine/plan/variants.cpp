@@ -92,7 +92,7 @@ ProgramPlan lightingProgram(int bucket, const Quality& quality, const LightingVa
 ProgramPlan forwardProgram(GeometryVariant variant, const Quality& quality, const LightingVariant& lighting) {
   ProgramPlan p = geometryProgram(GeometryPass::GBuffer, variant, lighting.occlusion);
   p.name = "forward" + p.name.substr(std::string_view("gbuffer").size());
-  p.fragment = "lighting/forward.frag";
+  p.fragment = "forward/forward.frag";
   for (std::string& d : shadeDefines(quality, lighting)) p.defines.push_back(std::move(d));
   std::sort(p.defines.begin(), p.defines.end());
   if (lighting.orthographic) p.name += "+ortho";

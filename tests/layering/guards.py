@@ -11,7 +11,7 @@ import tempfile
 
 SMALL = re.compile(r"\b\d+(\.\d*)?e-\d+", re.I)
 CLAMP = re.compile(r"\b(clamp|max|min)\s*\(")
-FOLDERS = ("shaders/shading", "shaders/lighting")
+FOLDERS = ("shaders/shading", "shaders/lighting", "shaders/forward")
 # Loops over counts, culling and tone curves of entry points are no shading: what a file outside the text may clamp without a word.
 ENTRY_POINTS = {"tile_depth.frag", "sky.frag", "tile.vert"}
 
