@@ -10,7 +10,7 @@ namespace burnish::prefilter {
 
 /// (scale, bias) as 16-bit unsigned normalized times `scale`: E(v) = F0 · scale + bias with Schlick's Fresnel. Rows of `width` texels; shading/dfg.h says which texel stands for
 /// what. Bilinear filtering errs by at most 1e-3 of max(1, E); Ward's unbounded lobe by 4e-3 and Phong's without a
-/// cosine by 1.5e-2 (tests/shading/dfg_test).
+/// cosine by 2e-2 (tests/shading/dfg_test).
 struct DfgTable {
   int width = 0, height = 0;
   float scale = 1;

@@ -120,7 +120,7 @@ TEST_CASE("DFG: the coarse rule and the fine one") {
 TEST_CASE("DFG: every table within 1e-3 of quadrature, edges included") {
   // Two models bend more sharply than any table follows: Phong's uncosined lobe is cut by the horizon as sqrt(1 - n·v)
   // near the normal (power 0), Ward's grows as 1/sqrt(n·v) toward the horizon.
-  const std::map<int, double> looser{{15, 0.015}, {19, 0.004}};
+  const std::map<int, double> looser{{15, 0.02}, {19, 0.004}};
   const int count = std::getenv("BURNISH_LONG") ? 20'000 : 800;
   for (int index = 0; index < kDfgTables; ++index) {
     const Point worst = worstOf(index, count);

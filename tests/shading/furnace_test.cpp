@@ -145,7 +145,7 @@ TEST_CASE("energy: coupled diffuse and compensation, over every specular rung") 
             CHECK(sum < 1.001);
             coupled.note(sum, r, nov, s);
             // The rough lobe sends more back where it came from, which the coupling does not know of.
-            CHECK(sumRough < 1.006);
+            CHECK(sumRough < 1.007);
             rough.note(sumRough, r, nov, s);
             if (s > 0.4) continue;  // between, metal's part loses unless compensated
             CHECK(sum == Approx(1).epsilon(0.01));
