@@ -9,37 +9,39 @@
 namespace burnish::gpu_scene {
 
 Result<void> TargetPool::prepare(const FramePlan& plan) {
-  if (plan.targets == plan_) return {};
-  framebuffers_.clear();
-  std::map<std::string, gl::Texture, std::less<>> next;
+  bool changed = false;
+  for (auto& [name, entry] : entries_) ++entry.idle;
   for (const TargetPlan& t : plan.targets) {
-    const auto old = std::find(plan_.begin(), plan_.end(), t);
-    if (old != plan_.end() && textures_.contains(t.name)) {
-      next[t.name] = std::move(textures_[t.name]);
-      continue;
-    }
+    Entry& entry = entries_[t.name];
+    entry.idle = 0;
+    if (entry.texture && entry.plan.format == t.format && entry.plan.width == t.width && entry.plan.height == t.height && entry.plan.levels == t.levels) continue;
+    changed = true;
     const gl::FormatInfo* format = gl::formatInfo(t.format);
     if (!format) return fail(fmt::format("target '{}'", t.name), fmt::format("unknown format {}", t.format));
-    auto texture = gl::Texture::create(device_, {.format = format->format, .width = t.width, .height = t.height}, t.name);
+    entry.texture = {};  // the old one goes first: memory may be short
+    auto texture = gl::Texture::create(device_, {.format = format->format, .width = t.width, .height = t.height, .levels = t.levels}, t.name);
     if (!texture) {
-      plan_.clear();
+      framebuffers_.clear();
       return fail(texture.error());
     }
-    next[t.name] = std::move(*texture);
+    entry.plan = t;
+    entry.texture = std::move(*texture);
   }
-  textures_ = std::move(next);
-  plan_ = plan.targets;
+  changed |= std::erase_if(entries_, [](const auto& e) { return e.second.idle > kIdleFrames; }) > 0;
+  if (changed) framebuffers_.clear();
   return {};
 }
 
 const gl::Texture* TargetPool::texture(std::string_view name) const {
-  const auto found = textures_.find(name);
-  return found == textures_.end() ? nullptr : &found->second;
+  const auto found = entries_.find(name);
+  return found == entries_.end() || found->second.idle > 0 || !found->second.texture ? nullptr : &found->second.texture;
 }
 
 Result<GLuint> TargetPool::framebuffer(std::initializer_list<std::string_view> colors, std::string_view depth) {
-  std::string key(depth);
-  for (std::string_view c : colors) key += fmt::format("|{}", c);
+  // By what is there: a plan without one of the targets wants a framebuffer without it.
+  std::string key(texture(depth) ? depth : std::string_view());
+  for (std::string_view c : colors)
+    if (texture(c)) key += fmt::format("|{}", c);
   if (const auto found = framebuffers_.find(key); found != framebuffers_.end()) return found->second.id();
   std::vector<gl::Attachment> attachments;
   for (std::string_view c : colors)

@@ -13,11 +13,13 @@
 
 namespace burnish::gpu_scene {
 
-/// The textures and framebuffers of a plan's targets; kept between frames while the plan's targets stay the same.
+/// The textures and framebuffers of a plan's targets. What a plan no longer lists is kept for a while (kIdleFrames), so that an effect at the edge of the view does not
+/// allocate anew in every other frame.
 class TargetPool {
  public:
   explicit TargetPool(gl::Device& device) : device_(device) {}
-  /// Allocates what the plan lists and frees the rest.
+  static constexpr int kIdleFrames = 60;
+  /// Allocates what the plan lists; frees what has been idle for long, and at once what a target of the same name with another size or format replaces.
   Result<void> prepare(const FramePlan& plan);
   /// nullptr when the plan has no such target.
   [[nodiscard]] const gl::Texture* texture(std::string_view name) const;
@@ -25,9 +27,13 @@ class TargetPool {
   Result<GLuint> framebuffer(std::initializer_list<std::string_view> colors, std::string_view depth = {});
 
  private:
+  struct Entry {
+    TargetPlan plan;
+    gl::Texture texture;
+    int idle = 0;  // frames since a plan listed it
+  };
   gl::Device& device_;
-  std::vector<TargetPlan> plan_;
-  std::map<std::string, gl::Texture, std::less<>> textures_;
+  std::map<std::string, Entry, std::less<>> entries_;
   std::map<std::string, gl::Framebuffer, std::less<>> framebuffers_;
 };
 
@@ -71,8 +77,6 @@ struct FrameContext {
   const GpuEnvironment* environment = nullptr;
   glm::ivec2 size{0};      ///< of the target
   float preExposure = 1;   ///< the light buffer holds radiance times this
-  bool reduceDepth = false;  ///< tile bounds come from a pass, not from the whole depth buffer
-  bool firstView = true;
   Report& report;
   FrameStats& stats;
 

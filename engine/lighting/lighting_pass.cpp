@@ -30,7 +30,7 @@ Result<std::unique_ptr<LightingPass>> LightingPass::create(gl::Device& device) {
 
 Result<void> LightingPass::readTileDepths(FrameContext& c) {
   const glm::ivec4 v = c.view.viewport;
-  if (!c.reduceDepth) {
+  if (!c.targets.texture("tile_depth")) {
     depth_.resize(std::size_t(v.z) * std::size_t(v.w));
     c.device.gl.GetTextureSubImage(c.targets.texture("depth")->id(), 0, v.x, v.y, 0, v.z, v.w, 1, GL_DEPTH_COMPONENT, GL_FLOAT, GLsizei(depth_.size() * sizeof(float)), depth_.data());
     reduceDepth(depth_.data(), v.z, v.z, v.w, c.view.depthParams, c.view.orthographic, tileDepths_);
@@ -164,14 +164,15 @@ Result<void> LightingPass::shadeTiles(FrameContext& c) {
   return {};
 }
 
-void LightingPass::drawAllTiles(FrameContext& c) {
+Result<void> LightingPass::drawAllTiles(FrameContext& c) {
   widenViewport(c);
   tileArray_.bind();
   c.device.gl.VertexArrayVertexBuffer(tileArray_.id(), 0, tiles_.id(), 0, sizeof(TileVertex));
   c.device.gl.DrawArrays(GL_POINTS, 0, GLsizei(lists_->tiles.size()));
+  return {};
 }
 
-Result<void> LightingPass::drawBackground(FrameContext& c) {
+Result<void> drawBackground(FrameContext& c) {
   const GladGLContext& gl = c.device.gl;
   const bool depth = c.targets.texture("depth") != nullptr;
   auto framebuffer = depth ? c.targets.framebuffer({"light"}, "depth") : c.targets.framebuffer({"light"});

@@ -15,10 +15,8 @@ class LightingPass {
   Result<void> shadeTiles(gpu_scene::FrameContext& context);
   /// Binds what the forward reference shades with: every light, the environment, the lobe's table. The pass "forward" draws then.
   Result<void> bindForward(gpu_scene::FrameContext& context);
-  /// Pass "background": where nothing was drawn.
-  Result<void> drawBackground(gpu_scene::FrameContext& context);
   /// Draws every tile with the bound program (debug view of the lists).
-  void drawAllTiles(gpu_scene::FrameContext& context);
+  Result<void> drawAllTiles(gpu_scene::FrameContext& context);
 
  private:
   explicit LightingPass(gl::Device& device) : device_(device) {}
@@ -40,5 +38,8 @@ class LightingPass {
   gl::TextureBuffer lights_, entries_;
   std::array<gl::Texture, prefilter::kDfgTables> dfg_;  ///< made when first asked for
 };
+
+/// Pass "background": where nothing was drawn.
+Result<void> drawBackground(gpu_scene::FrameContext& context);
 
 }  // namespace burnish::lighting

@@ -4,14 +4,11 @@
 
 #include <algorithm>
 
+#include "plan/builder.h"
 #include "plan/rungs.h"
 #include "prefilter/dfg.h"
 
 namespace burnish::plan {
-namespace {
-std::string define(std::string_view name, int value) { return fmt::format("{} {}", name, value); }
-}  // namespace
-
 GeometryVariant variantOf(const Material& m, const Mesh& mesh) {
   const UvMapping plain;
   GeometryVariant v;

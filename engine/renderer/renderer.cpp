@@ -9,10 +9,8 @@
 
 #include "gbuffer/geometry_pass.h"
 #include "gl/host_state.h"
-#include "gl/timers.h"
-#include "gpu_scene/frame.h"
-#include "lighting/lighting_pass.h"
-#include "post/post_pass.h"
+#include "plan/plan.h"
+#include "renderer/passes.h"
 
 namespace burnish {
 namespace {
@@ -71,7 +69,7 @@ struct Renderer::Impl {
   std::unique_ptr<gl::ProgramCache> programs;
   std::unique_ptr<gpu_scene::TargetPool> targets;
   std::unique_ptr<gpu_scene::ProgramSet> programSet;
-  std::unique_ptr<lighting::LightingPass> lighting;
+  std::unique_ptr<Modules> modules;
   std::unique_ptr<gl::FrameTimers> timers;
   gpu_scene::FrameBuffers buffers;
   std::map<std::uint64_t, std::unique_ptr<SceneState>> scenes;
@@ -79,7 +77,7 @@ struct Renderer::Impl {
   Report report;
   std::size_t reported = 0;
   std::optional<Quality> reportedQuality;
-  std::vector<scene::VisibleInstance> visible;
+  std::vector<plan::Seen> seen;  // of each view
 
   SceneState& stateOf(const Scene& scene) {
     std::unique_ptr<SceneState>& s = scenes[scene.identity.value()];
@@ -108,12 +106,12 @@ struct Renderer::Impl {
     o.hostDraw = bool(request.hostDraw);
     o.countNonfinite = request.countNonfinite;
     o.tileBounds = options.tileBounds;
+    o.removed = options.removedEffects;
+    o.forced = options.forcedEffects;
     return o;
   }
   Result<void> checkRequest(const Target& target, std::span<const View> views) const;
-  Result<void> renderView(SceneState& state, const Scene& scene, const View& view, const Target& target, const Quality& quality, const RenderRequest& request, bool first, FrameStats& stats);
-  Result<void> runPass(const PassPlan& pass, FrameContext& c, const Target& target, const RenderRequest& request);
-  void callHost(FrameContext& c, const RenderRequest& request, GLuint framebuffer);
+  Result<void> renderView(SceneState& state, const Scene& scene, const plan::Seen& view, const Target& target, const Quality& quality, const RenderRequest& request, FrameStats& stats);
 };
 
 Result<void> Renderer::Impl::checkRequest(const Target& target, std::span<const View> views) const {
@@ -132,77 +130,17 @@ Result<void> Renderer::Impl::checkRequest(const Target& target, std::span<const 
   return {};
 }
 
-void Renderer::Impl::callHost(FrameContext& c, const RenderRequest& request, GLuint framebuffer) {
-  HostDraw draw;
-  draw.framebuffer = framebuffer;
-  draw.viewProjection = glm::mat4(c.view.viewProjection);
-  draw.eye = c.view.eye;
-  draw.viewport = c.view.viewport;
-  draw.exposure = c.preExposure;
-  c.device.gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-  c.setViewport();
-  c.device.gl.Enable(GL_DEPTH_TEST);
-  c.device.gl.DepthFunc(GL_GREATER);
-  request.hostDraw(draw);
-  // The callback may have changed anything: back to the state that passes start from.
-  gl::setDefaults(c.device);
-  c.device.gl.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-  c.buffers.frame.bindBase(GL_UNIFORM_BUFFER, BINDING_FRAME);
-}
-
-Result<void> Renderer::Impl::runPass(const PassPlan& pass, FrameContext& c, const Target& target, const RenderRequest& request) {
-  gl::DebugGroup group(*device, pass.name);
-  gl::PassTimer timer(*timers, pass.name);
-  const auto writesHalf = [&c]() -> Result<GLuint> { return c.targets.texture("depth") ? c.targets.framebuffer({"light"}, "depth") : c.targets.framebuffer({"light"}); };
-  if (pass.name == "depth_in") return post::takeHostDepth(c, *target.depthIn);
-  if (pass.name == "gbuffer") return gbuffer::drawGBuffer(c);
-  if (pass.name == "forward") {
-    if (auto bound = lighting->bindForward(c); !bound) return bound;
-    return gbuffer::drawForward(c);
-  }
-  if (pass.name == "tiles") return lighting->buildTiles(c);
-  if (pass.name == "lighting") return lighting->shadeTiles(c);
-  if (pass.name == "emissive") return gbuffer::drawEmissive(c);
-  if (pass.name == "background") return lighting->drawBackground(c);
-  if (pass.name == "host_draw") {
-    auto framebuffer = writesHalf();
-    if (!framebuffer) return fail(framebuffer.error());
-    callHost(c, request, *framebuffer);
-    return {};
-  }
-  if (pass.name == "exposure") return post::measureExposure(c);
-  if (pass.name == "nonfinite_count") {
-    c.stats.nonfinitePixels += post::countNonfinite(c);
-    if (plan.on("auto_exposure")) c.stats.exposureEv = post::readExposure(c);
-    return {};
-  }
-  if (pass.name == "tonemap") return post::drawTonemap(c, target.framebuffer);
-  if (pass.name == "debug_view") {
-    if (request.debugView != DebugView::Lights) return post::drawDebugView(c, target.framebuffer);
-    c.device.gl.BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
-    c.device.gl.Disable(GL_DEPTH_TEST);
-    if (const gl::Program* program = c.programs.find("debug_lights")) program->use();
-    lighting->drawAllTiles(c);
-    return {};
-  }
-  if (pass.name == "depth_out") return post::giveHostDepth(c, *target.depthOut);
-  return fail("frame plan", fmt::format("pass '{}' is unknown", pass.name), "report this as a fault of the engine");
-}
-
-Result<void> Renderer::Impl::renderView(SceneState& state, const Scene& scene, const View& view, const Target& target, const Quality& quality, const RenderRequest& request, bool first,
-                                        FrameStats& stats) {
-  const scene::ViewFrame frame = scene::frameOf(view, target.size);
-  scene::findVisible(scene, state.derived, frame, visible);
-  const scene::LightSet lights = scene::gatherLights(scene, state.derived, frame, quality, report);
+Result<void> Renderer::Impl::renderView(SceneState& state, const Scene& scene, const plan::Seen& view, const Target& target, const Quality& quality, const RenderRequest& request, FrameStats& stats) {
   const gpu_scene::GpuEnvironment* environment = nullptr;
   if (plan.on("environment_lighting") || plan.on("background")) {
     auto found = state.gpu.environment(scene, report);
     if (!found) return fail(found.error());
     environment = *found;
   }
-  FrameContext c{*device, plan, *programSet, *targets, state.gpu, buffers, scene, quality, frame, visible, lights, environment, target.size, 1, plan.target("tile_depth") != nullptr, first, report, stats};
+  FrameContext c{.device = *device, .plan = plan, .programs = *programSet, .targets = *targets, .gpuScene = state.gpu, .buffers = buffers, .scene = scene, .quality = quality, .view = view.frame,
+                 .visible = view.instances, .lights = view.lights, .environment = environment, .size = target.size, .report = report, .stats = stats};
   const float display = quality.exposureEv ? exposureOf(*quality.exposureEv) : 1;
-  if (request.output == Output::Display) c.preExposure = quality.exposureEv ? display : guessedExposure(lights, environment, scene.environment.scale);
+  if (request.output == Output::Display) c.preExposure = quality.exposureEv ? display : guessedExposure(view.lights, environment, scene.environment.scale);
   if (auto done = gpu_scene::uploadFrameData(c, display); !done) return done;
   if (auto done = gpu_scene::uploadDraws(c); !done) return done;
   // Where no pass covers the whole light buffer, it starts black.
@@ -213,13 +151,9 @@ Result<void> Renderer::Impl::renderView(SceneState& state, const Scene& scene, c
     const float black[4] = {0, 0, 0, 1};
     device->gl.ClearNamedFramebufferfv(*framebuffer, GL_COLOR, 0, black);
   }
-  if (request.debugView == DebugView::Lights) {
-    c.setViewport();
-    const float black[4] = {0, 0, 0, 1};
-    device->gl.ClearNamedFramebufferfv(target.framebuffer, GL_COLOR, 0, black);
-  }
+  PassCall call{c, *modules, target, request};
   for (const PassPlan& pass : plan.passes)
-    if (auto done = runPass(pass, c, target, request); !done) return done;
+    if (auto done = runPass(pass, call, *timers); !done) return done;
   return {};
 }
 
@@ -241,9 +175,7 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const ProcAddress& getProcAdd
   auto buffers = gpu_scene::FrameBuffers::create(*m.device);
   if (!buffers) return fail(buffers.error());
   m.buffers = std::move(*buffers);
-  auto lighting = lighting::LightingPass::create(*m.device);
-  if (!lighting) return fail(lighting.error());
-  m.lighting = std::move(*lighting);
+  m.modules = std::make_unique<Modules>(*m.device);
   return renderer;
 }
 
@@ -262,18 +194,24 @@ Result<FrameStats> Renderer::render(const Scene& scene, std::span<const View> vi
   Impl& m = *impl_;
   if (auto good = m.checkRequest(target, views); !good) return fail(good.error());
   const CallState callState(*m.device, m.options.hostState);
-  m.plan = makePlan(scene, views, quality, m.device->caps, m.planOptions(target, request));
+  SceneState& state = m.stateOf(scene);
+  state.derived.update(scene);
+  m.seen.resize(views.size());
+  for (std::size_t i = 0; i < views.size(); ++i) plan::look(scene, state.derived, views[i], target.size, quality, m.report, m.seen[i]);
+  m.plan = plan::planOf(scene, m.seen, quality, m.device->caps, m.planOptions(target, request), nullptr);
+  for (plan::Seen& seen : m.seen) {
+    if (!m.plan.on("directional_lights")) seen.lights.directional.clear();
+    if (!m.plan.on("local_lights")) seen.lights.local.clear();
+  }
   if (m.plan.on("forward_reference") && target.depthIn)
     return fail("target", "it brings depth, which the forward reference path cannot take in", "leave depthIn empty, or use path=deferred and rungs that are not forward-only");
   m.reportQuality(quality);
   FrameStats stats;
   Result<void> done = m.programSet->prepare(m.plan);
   if (done) done = m.targets->prepare(m.plan);
-  SceneState& state = m.stateOf(scene);
   if (done) done = state.gpu.beginFrame(scene, m.options.uploadBytesPerFrame, m.report);
-  state.derived.update(scene);
   m.timers->beginFrame(timingOf(request.timing));
-  for (std::size_t i = 0; i < views.size() && done; ++i) done = m.renderView(state, scene, views[i], target, quality, request, i == 0, stats);
+  for (std::size_t i = 0; i < views.size() && done; ++i) done = m.renderView(state, scene, m.seen[i], target, quality, request, stats);
   m.timers->endFrame();
   if (m.options.debugOutput) stats.glErrors = m.device->takeErrors();
   m.logNewWarnings();
@@ -307,12 +245,13 @@ Result<Id<Instance>> Renderer::pick(const Scene& scene, const View& view, glm::i
   SceneState& state = m.stateOf(scene);
   if (auto done = state.gpu.beginFrame(scene, 0, m.report); !done) return fail(done.error());
   state.derived.update(scene);
-  const scene::ViewFrame frame = scene::narrowed(whole, local);
-  scene::findVisible(scene, state.derived, frame, m.visible);
-  const scene::LightSet lights;
+  plan::Seen seen;
+  seen.frame = scene::narrowed(whole, local);
+  scene::findVisible(scene, state.derived, seen.frame, seen.instances);
   const Quality quality;
   FrameStats stats;
-  FrameContext c{*m.device, plan, programs, targets, state.gpu, m.buffers, scene, quality, frame, m.visible, lights, nullptr, {1, 1}, 1, false, true, m.report, stats};
+  FrameContext c{.device = *m.device, .plan = plan, .programs = programs, .targets = targets, .gpuScene = state.gpu, .buffers = m.buffers, .scene = scene, .quality = quality, .view = seen.frame,
+                 .visible = seen.instances, .lights = seen.lights, .size = {1, 1}, .report = m.report, .stats = stats};
   if (auto done = gpu_scene::uploadFrameData(c, 1); !done) return fail(done.error());
   if (auto done = gpu_scene::uploadDraws(c); !done) return fail(done.error());
   auto framebuffer = targets.framebuffer({"pick"}, "pick_depth");

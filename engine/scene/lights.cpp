@@ -46,9 +46,10 @@ void setCone(LocalLight& l, const Light& light, const glm::dmat4& world) {
 
 }  // namespace
 
-LightSet gatherLights(const Scene& scene, const Derived& derived, const ViewFrame& frame, const Quality& quality, Report& report) {
+LightSet gatherLights(const Scene& scene, const Derived& derived, const ViewFrame& frame, const Quality& quality, Report& report, Reach reach) {
   LightSet set;
-  scene.lights.each([&](Id<Light>, const Light& light) {
+  const Frustum frustum(frame);
+  scene.lights.each([&](Id<Light> id, const Light& light) {
     if (!light.enabled) return;
     const glm::dmat4 world = scene.nodes.has(light.node) ? derived.world(light.node) : glm::dmat4(1);
     const glm::vec3 power = glm::max(light.color, glm::vec3(0)) * light.intensity;
@@ -64,10 +65,11 @@ LightSet gatherLights(const Scene& scene, const Derived& derived, const ViewFram
       }
       const glm::dvec3 back(world[2]);
       const double length = glm::length(back);
-      set.directional.push_back({length > 1e-30 ? glm::vec3(back / length) : glm::vec3(0, 1, 0), power});
+      set.directional.push_back({id, length > 1e-30 ? glm::vec3(back / length) : glm::vec3(0, 1, 0), power});
       return;
     }
     LocalLight l;
+    l.id = id;
     l.position = glm::vec3(glm::dvec3(world[3]) - frame.eye);
     l.intensity = power;
     setRange(l, light, quality, report);
@@ -75,6 +77,7 @@ LightSet gatherLights(const Scene& scene, const Derived& derived, const ViewFram
       if (light.outerCone <= 0) return;
       setCone(l, light, world);
     }
+    if (reach == Reach::InView && !frustum.meetsSphere(l.position, l.radius)) return;
     set.local.push_back(l);
   });
   return set;

@@ -35,32 +35,31 @@ namespace {
 
 double within(double value, double low, double high, double otherwise) { return std::isfinite(value) ? std::clamp(value, low, high) : otherwise; }
 
-// Six (or five, without a far plane) planes in camera-relative world space, pointing inward: dot(n, p) + d >= 0.
-struct Planes {
-  glm::dvec4 plane[6];
-  int count = 0;
-};
+}  // namespace
 
-Planes planesOf(const ViewFrame& f) {
-  Planes p;
+// Six planes, or five without a far plane.
+Frustum::Frustum(const ViewFrame& f) {
   const glm::dmat4 t = glm::transpose(f.viewProjection);
   // Clip space: -w <= x, y <= w; reversed depth: z <= w is the near plane, z >= 0 the far plane.
   for (const glm::dvec4& plane : {t[3] + t[0], t[3] - t[0], t[3] + t[1], t[3] - t[1], t[3] - t[2], t[2]}) {
     const double length = glm::length(glm::dvec3(plane));
-    if (length > 1e-300) p.plane[p.count++] = plane / length;
+    if (length > 1e-300) plane_[count_++] = plane / length;
   }
-  return p;
 }
 
-bool meets(const Planes& planes, glm::dvec3 center, glm::dvec3 halfExtent) {
-  for (int i = 0; i < planes.count; ++i) {
-    const glm::dvec3 n(planes.plane[i]);
-    if (glm::dot(n, center) + planes.plane[i].w + glm::dot(glm::abs(n), halfExtent) < 0) return false;
+bool Frustum::meetsBox(glm::dvec3 center, glm::dvec3 halfExtent) const {
+  for (int i = 0; i < count_; ++i) {
+    const glm::dvec3 n(plane_[i]);
+    if (glm::dot(n, center) + plane_[i].w + glm::dot(glm::abs(n), halfExtent) < 0) return false;
   }
   return true;
 }
 
-}  // namespace
+bool Frustum::meetsSphere(glm::dvec3 center, double radius) const {
+  for (int i = 0; i < count_; ++i)
+    if (glm::dot(glm::dvec3(plane_[i]), center) + plane_[i].w + radius < 0) return false;
+  return true;
+}
 
 ViewFrame frameOf(const View& view, glm::ivec2 size) {
   ViewFrame f;
@@ -114,9 +113,9 @@ ViewFrame narrowed(const ViewFrame& frame, glm::ivec2 pixel) {
   return f;
 }
 
-void findVisible(const Scene& scene, const Derived& derived, const ViewFrame& frame, std::vector<VisibleInstance>& out) {
+void findVisible(const Scene& scene, const Derived& derived, const ViewFrame& frame, std::vector<VisibleInstance>& out, Reach reach) {
   out.clear();
-  const Planes planes = planesOf(frame);
+  const Frustum frustum(frame);
   scene.instances.each([&](Id<Instance> id, const Instance& instance) {
     const Mesh* mesh = scene.meshes.get(instance.mesh);
     if (!instance.visible || !mesh || mesh->indices.empty()) return;
@@ -129,7 +128,7 @@ void findVisible(const Scene& scene, const Derived& derived, const ViewFrame& fr
     const glm::dmat3 m(world);
     const glm::dvec3 center = m * middle + glm::dvec3(world[3]);
     const glm::dvec3 extent = glm::abs(m[0]) * half.x + glm::abs(m[1]) * half.y + glm::abs(m[2]) * half.z;
-    if (!meets(planes, center, extent)) return;
+    if (reach == Reach::InView && !frustum.meetsBox(center, extent)) return;
     VisibleInstance v;
     v.id = id;
     v.instance = &instance;

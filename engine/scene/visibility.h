@@ -40,6 +40,22 @@ ViewFrame frameOf(const View& view, glm::ivec2 targetSize);
 /// The same frame narrowed to one pixel of the viewport, drawn to a 1x1 target (picking).
 ViewFrame narrowed(const ViewFrame& frame, glm::ivec2 pixel);
 
+/// The view's volume: planes in camera-relative world space.
+class Frustum {
+ public:
+  explicit Frustum(const ViewFrame& frame);
+  /// False only when the box (half extents along the world's axes) is outside.
+  [[nodiscard]] bool meetsBox(glm::dvec3 center, glm::dvec3 halfExtent) const;
+  [[nodiscard]] bool meetsSphere(glm::dvec3 center, double radius) const;
+
+ private:
+  glm::dvec4 plane_[6];  // pointing inward: dot(n, p) + d >= 0
+  int count_ = 0;
+};
+
+/// What is looked for: what the frustum holds, or all that there is.
+enum class Reach : std::uint8_t { InView, Everywhere };
+
 struct VisibleInstance {
   Id<Instance> id;
   const Instance* instance = nullptr;
@@ -50,14 +66,16 @@ struct VisibleInstance {
   float distance = 0;   ///< from the eye to the centre of the bounds, metres
 };
 /// Instances whose bounds meet the frustum, sorted by distance. Non-finite transforms are left out.
-void findVisible(const Scene& scene, const Derived& derived, const ViewFrame& frame, std::vector<VisibleInstance>& out);
+void findVisible(const Scene& scene, const Derived& derived, const ViewFrame& frame, std::vector<VisibleInstance>& out, Reach reach = Reach::InView);
 
 struct DirectionalLight {
+  Id<Light> id;
   glm::vec3 toLight{0, 1, 0};
   glm::vec3 illuminance{0};  ///< lux
 };
 /// A point or spot light, relative to the eye.
 struct LocalLight {
+  Id<Light> id;
   glm::vec3 position{0};
   glm::vec3 intensity{0};  ///< candela
   float radius = 0;        ///< metres: it gives nothing beyond
@@ -70,7 +88,8 @@ struct LightSet {
   std::vector<DirectionalLight> directional;  ///< at most MAX_DIRECTIONAL
   std::vector<LocalLight> local;
 };
-/// Lights of the scene that are on and finite. Ranges that were derived, lights past the limit and lights that are mended are reported.
-LightSet gatherLights(const Scene& scene, const Derived& derived, const ViewFrame& frame, const Quality& quality, Report& report);
+/// Lights of the scene that are on and finite; point and spot lights only where their reach meets the frustum. Ranges that were derived, lights past the limit
+/// and lights that are mended are reported.
+LightSet gatherLights(const Scene& scene, const Derived& derived, const ViewFrame& frame, const Quality& quality, Report& report, Reach reach = Reach::InView);
 
 }  // namespace burnish::scene

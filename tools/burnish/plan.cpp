@@ -37,9 +37,13 @@ Json toJson(const burnish::FramePlan& plan) {
     out["effects"].push_back({{"name", effect.name},
                               {"on", effect.on},
                               {"called_by", effect.calledBy == burnish::CalledBy::Scene ? "scene" : "setting"},
-                              {"reason", effect.reason}});
+                              {"reason", effect.reason},
+                              {"passes", effect.passes},
+                              {"programs", effect.programs},
+                              {"targets", effect.targets},
+                              {"bytes", effect.bytes}});
   out["passes"] = Json::array();
-  for (const auto& pass : plan.passes) out["passes"].push_back({{"name", pass.name}, {"reads", pass.reads}, {"writes", pass.writes}});
+  for (const auto& pass : plan.passes) out["passes"].push_back({{"name", pass.name}, {"effects", pass.effects}, {"reads", pass.reads}, {"writes", pass.writes}, {"programs", pass.programs}});
   out["programs"] = Json::array();
   for (const auto& program : plan.programs) out["programs"].push_back(program.name);
   out["targets"] = Json::array();
@@ -49,10 +53,19 @@ Json toJson(const burnish::FramePlan& plan) {
 
 std::string namesOr(const std::vector<std::string>& names, const char* none) { return names.empty() ? none : listed(names); }
 
+/// What an effect that is on takes: " [passes; 3 programs; targets, 2.1 MB]", shared with others or not.
+std::string costOf(const burnish::EffectPlan& effect) {
+  std::vector<std::string> parts;
+  if (!effect.passes.empty()) parts.push_back(listed(effect.passes));
+  if (!effect.programs.empty()) parts.push_back(fmt::format("{} program{}", effect.programs.size(), effect.programs.size() == 1 ? "" : "s"));
+  if (!effect.targets.empty()) parts.push_back(fmt::format("{}: {:.2f} MB", listed(effect.targets), double(effect.bytes) / 1e6));
+  return parts.empty() ? std::string() : fmt::format(" [{}]", fmt::join(parts, "; "));
+}
+
 void print(const burnish::FramePlan& plan) {
   fmt::print("effects\n");
   for (const auto& effect : plan.effects)
-    fmt::print("  {:<3} {:<24} {} ({})\n", effect.on ? "on" : "off", effect.name, effect.reason, effect.calledBy == burnish::CalledBy::Scene ? "scene" : "setting");
+    fmt::print("  {:<3} {:<24} {} ({}){}\n", effect.on ? "on" : "off", effect.name, effect.reason, effect.calledBy == burnish::CalledBy::Scene ? "scene" : "setting", costOf(effect));
   fmt::print("passes\n");
   for (const auto& pass : plan.passes) {
     fmt::print("  {:<14} reads {}; writes {}\n", pass.name, namesOr(pass.reads, "nothing"), namesOr(pass.writes, "nothing"));

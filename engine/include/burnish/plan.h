@@ -31,21 +31,34 @@ enum class DebugView : std::uint8_t { Final, Albedo, Substance, Normal, Roughnes
 BURNISH_API std::span<const std::string_view> debugViewNames();  ///< in the order of the enum
 
 enum class CalledBy : std::uint8_t { Scene, Setting };
+/// What an effect is. The whole list, in the order in which a plan judges them:
+struct EffectInfo {
+  std::string_view name;
+  CalledBy calledBy = CalledBy::Scene;  ///< by what is in view, or by a setting or request
+  std::string_view what;                ///< one line
+};
+BURNISH_API std::span<const EffectInfo> effectList();
+
 struct EffectPlan {
   std::string name;
   bool on = false;
   CalledBy calledBy = CalledBy::Scene;
   std::string reason;  ///< why it is on, or what would call for it
+  std::vector<std::string> passes, programs, targets;  ///< those that it calls for, alone or with others; empty when it is off
+  std::uint64_t bytes = 0;                             ///< of those targets
 };
 struct PassPlan {
   std::string name;
+  std::vector<std::string> effects;        ///< that call for it and are on
   std::vector<std::string> reads, writes;  ///< names of targets and tables
   std::vector<std::string> programs;       ///< names, each in FramePlan::programs
 };
 struct TargetPlan {
   std::string name, format;  ///< format: GL's name without the prefix ("RGBA16F")
   int width = 0, height = 0;
+  int levels = 1;  ///< of its mip chain
   std::uint64_t bytes = 0;
+  std::vector<std::string> effects;  ///< that call for it and are on
   friend bool operator==(const TargetPlan&, const TargetPlan&) = default;
 };
 /// One program: entry points and the definitions that are specialised into it.
@@ -81,6 +94,12 @@ struct PlanOptions {
   bool hostDepthIn = false, hostDepthOut = false, hostDraw = false;
   bool countNonfinite = false;
   TileBounds tileBounds = TileBounds::Automatic;
+  /// Plans as if everything in the scene were in view: what Renderer::warmUp wants, so that turning around compiles nothing. An executed plan is of what the views see.
+  bool wholeScene = false;
+  /// Effects taken off the list: never planned, not even listed. Unknown names do nothing.
+  std::vector<std::string> removed;
+  /// Effects called by the scene that are planned though nothing in view calls for them. Unknown names and effects called by settings do nothing.
+  std::vector<std::string> forced;
 };
 BURNISH_API FramePlan makePlan(const Scene& scene, std::span<const View> views, const Quality& quality, const Capabilities& caps, const PlanOptions& options);
 

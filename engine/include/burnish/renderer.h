@@ -17,6 +17,8 @@ struct RendererOptions {
   std::filesystem::path programCache;        ///< folder for program binaries; empty: none
   std::filesystem::path shaderOverride;      ///< folder that is looked into before the embedded shaders; empty: none
   TileBounds tileBounds = TileBounds::Automatic;
+  std::vector<std::string> removedEffects;   ///< PlanOptions::removed of every frame
+  std::vector<std::string> forcedEffects;    ///< PlanOptions::forced of every frame
   bool debugOutput = false;                  ///< collect GL debug messages as errors (needs a debug context to be complete)
   LogSink log;
 };

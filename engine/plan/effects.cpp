@@ -1,0 +1,139 @@
+#include "plan/effects.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace burnish::plan {
+namespace {
+
+constexpr std::string_view kNotShown = "the debug view does not show it";
+
+Verdict geometry(const Situation& s) { return sceneCalls(s, Call::Geometry, "no visible instance"); }
+Verdict twoSided(const Situation& s) { return sceneCalls(s, Call::TwoSided, "a two-sided material would call for it"); }
+Verdict alphaTest(const Situation& s) { return sceneCalls(s, Call::AlphaTest, "a material with an alpha test would call for it"); }
+
+Verdict bakedOcclusion(const Situation& s) {
+  return provided(sceneCalls(s, Call::BakedOcclusion, s.quality.occlusion == Occlusion::None ? "the quality turns it off" : "a material with an occlusion map would call for it"),
+                  s.final() || s.options.debugView == DebugView::Occlusion, kNotShown);
+}
+
+Verdict emissive(const Situation& s) { return provided(sceneCalls(s, Call::Emissive, "a material with emission would call for it"), s.final(), kNotShown); }
+
+std::string_view notLit(const Situation& s) { return s.hasDepth() ? kNotShown : "nothing to light"; }
+
+Verdict countedLights(const Situation& s, Call call, int count, std::string_view otherwise) {
+  Verdict v = sceneCalls(s, call, otherwise);
+  if (v.on && count > 0) v.reason = fmt::format("{} of them, the first is {}", count, v.reason);
+  return v;
+}
+Verdict directionalLights(const Situation& s) {
+  return provided(countedLights(s, Call::Directional, s.facts.directionalLights, "a directional light would call for it"), s.final() && s.hasDepth(), notLit(s));
+}
+Verdict localLights(const Situation& s) {
+  return provided(countedLights(s, Call::Local, s.facts.localLights, "a point or spot light would call for it"), (s.final() || s.viewsLights()) && s.hasDepth(), notLit(s));
+}
+Verdict environmentLighting(const Situation& s) {
+  const bool quality = s.quality.environmentSpecular != EnvironmentSpecular::None || s.quality.ambient != Ambient::None;
+  const Verdict called = sceneCalls(s, Call::Environment, "an environment map or colour would call for it");
+  return provided(provided(called, quality, "the quality turns it off"), s.final() && s.hasDepth(), notLit(s));
+}
+Verdict background(const Situation& s) { return provided(sceneCalls(s, Call::Background, "an environment shown as background would call for it"), s.final(), kNotShown); }
+
+Verdict forwardReference(const Situation& s) {
+  const std::string rung = forwardOnlyRung(s.quality);
+  if (s.quality.path != Path::Forward && rung.empty()) return {false, "path=forward or a forward-only rung would call for it"};
+  if (!s.final()) return {false, "the debug view shows the G-buffer"};
+  if (!s.on("geometry")) return {false, "nothing to shade"};
+  return {true, rung.empty() ? "path=forward" : rung + " needs what the G-buffer does not hold"};
+}
+Verdict autoExposure(const Situation& s) {
+  if (s.options.output == Output::Linear) return {false, "linear output is untouched by exposure"};
+  if (s.quality.exposureEv) return {false, "the exposure is set"};
+  if (s.options.debugView != DebugView::Final) return {false, "the debug view does not need it"};
+  return {true, "no exposure is set"};
+}
+Verdict toneMapping(const Situation& s) {
+  if (s.options.debugView != DebugView::Final) return {false, "the debug view does not need it"};
+  if (s.options.output != Output::Display) return {false, "the output is linear"};
+  return {true, fmt::format("tone map '{}'", toneMapNames()[std::size_t(s.quality.toneMap)])};
+}
+Verdict linearOutput(const Situation& s) {
+  const bool on = s.options.output == Output::Linear && s.options.debugView == DebugView::Final;
+  return {on, on ? "radiance is asked for" : "a request for linear output would call for it"};
+}
+Verdict debugView(const Situation& s) {
+  if (s.options.debugView == DebugView::Final) return {false, "a debug view would call for it"};
+  return {true, fmt::format("view '{}'", debugViewNames()[std::size_t(s.options.debugView)])};
+}
+Verdict asked(bool on, std::string_view yes, std::string_view no) { return {on, std::string(on ? yes : no)}; }
+Verdict hostDepthIn(const Situation& s) { return asked(s.options.hostDepthIn, "the target brings depth", "a target that brings depth would call for it"); }
+Verdict hostDepthOut(const Situation& s) { return asked(s.options.hostDepthOut, "the target takes depth", "a target that takes depth would call for it"); }
+Verdict hostDraw(const Situation& s) { return asked(s.options.hostDraw && s.final(), "the host draws into the frame", "a draw callback would call for it"); }
+Verdict nonfiniteCount(const Situation& s) { return asked(s.options.countNonfinite && s.final(), "asked for", "a request to count would call for it"); }
+
+constexpr EffectRow kRows[] = {
+    {{"geometry", CalledBy::Scene, "instances in the G-buffer"}, geometry},
+    {{"two_sided", CalledBy::Scene, "surfaces seen from both sides"}, twoSided},
+    {{"alpha_test", CalledBy::Scene, "holes where opacity is under the cutoff"}, alphaTest},
+    {{"baked_occlusion", CalledBy::Scene, "occlusion maps"}, bakedOcclusion},
+    {{"emissive", CalledBy::Scene, "surfaces that emit"}, emissive},
+    {{"directional_lights", CalledBy::Scene, "suns"}, directionalLights},
+    {{"local_lights", CalledBy::Scene, "point and spot lights"}, localLights},
+    {{"environment_lighting", CalledBy::Scene, "light of the surroundings"}, environmentLighting},
+    {{"background", CalledBy::Scene, "the surroundings where nothing was drawn"}, background},
+    {{"forward_reference", CalledBy::Setting, "surfaces shaded where they are drawn, unquantised"}, forwardReference},
+    {{"auto_exposure", CalledBy::Setting, "exposure metered from the picture"}, autoExposure},
+    {{"tone_mapping", CalledBy::Setting, "radiance developed for a display"}, toneMapping},
+    {{"linear_output", CalledBy::Setting, "radiance in cd/m2, not developed"}, linearOutput},
+    {{"debug_view", CalledBy::Setting, "a buffer in place of the picture"}, debugView},
+    {{"host_depth_in", CalledBy::Setting, "the host's depth occludes the scene"}, hostDepthIn},
+    {{"host_depth_out", CalledBy::Setting, "the scene's depth for the host"}, hostDepthOut},
+    {{"host_draw", CalledBy::Setting, "the host's own things in the frame"}, hostDraw},
+    {{"nonfinite_count", CalledBy::Setting, "pixels that are not finite, counted"}, nonfiniteCount},
+};
+
+bool lists(const std::vector<std::string>& names, std::string_view name) { return std::find(names.begin(), names.end(), name) != names.end(); }
+
+}  // namespace
+
+std::span<const EffectRow> effectRows() { return kRows; }
+
+Verdict sceneCalls(const Situation& s, Call call, std::string_view otherwise) {
+  if (s.facts.has(call)) return {true, s.facts.why[std::size_t(call)]};
+  if (s.whole && s.whole->has(call)) return {false, "out of view: " + s.whole->why[std::size_t(call)]};
+  return {false, std::string(otherwise)};
+}
+
+Verdict provided(Verdict verdict, bool wanted, std::string_view unwanted) {
+  if (verdict.on && !wanted) return {false, std::string(unwanted)};
+  return verdict;
+}
+
+void judgeEffects(Situation& s) {
+  for (const EffectRow& row : kRows) {
+    if (lists(s.options.removed, row.info.name)) continue;
+    Verdict verdict = row.judge(s);
+    if (!verdict.on && row.info.calledBy == CalledBy::Scene && lists(s.options.forced, row.info.name)) verdict = {true, "forced on: " + verdict.reason};
+    EffectPlan& effect = s.effects.emplace_back();
+    effect.name = row.info.name;
+    effect.on = verdict.on;
+    effect.calledBy = row.info.calledBy;
+    effect.reason = std::move(verdict.reason);
+  }
+}
+
+}  // namespace burnish::plan
+
+namespace burnish {
+
+std::span<const EffectInfo> effectList() {
+  static const std::vector<EffectInfo> list = [] {
+    std::vector<EffectInfo> infos;
+    for (const plan::EffectRow& row : plan::effectRows()) infos.push_back(row.info);
+    return infos;
+  }();
+  return list;
+}
+
+}  // namespace burnish

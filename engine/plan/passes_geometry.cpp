@@ -1,0 +1,47 @@
+// Passes that draw instances.
+#include "plan/builder.h"
+
+namespace burnish::plan {
+
+void addHostDepth(Builder& b) {
+  if (!b.s.on("host_depth_in") || b.s.forward()) return;
+  PassPlan& pass = b.pass("depth_in", {"host_depth_in"}, {"host depth"}, {"depth"});
+  b.useScreen(pass, "depth_in", "post/depth_in.frag", {});
+}
+
+void addGBuffer(Builder& b) {
+  const Situation& s = b.s;
+  if (s.hasDepth()) b.target("depth", "DEPTH_COMPONENT32F", {"geometry", "host_depth_in"});
+  if (!s.hasDepth() || s.forward()) return;
+  const bool occlusion = s.on("baked_occlusion");
+  PassPlan& pass = b.pass("gbuffer", {"geometry", "host_depth_in", "two_sided", "alpha_test", "baked_occlusion"}, {"meshes", "materials"}, {"gbuffer_a", "gbuffer_b"});
+  b.target("gbuffer_a", "RGBA8", {"geometry", "host_depth_in"});
+  b.target("gbuffer_b", "RGBA8", {"geometry", "host_depth_in"});
+  if (occlusion) {
+    b.target("gbuffer_c", "R8", {"baked_occlusion"});
+    pass.writes.push_back("gbuffer_c");
+  }
+  pass.writes.push_back("depth");
+  if (!s.on("geometry")) return;
+  for (const GeometryVariant& v : s.facts.variants) b.use(pass, geometryProgram(GeometryPass::GBuffer, v, occlusion));
+}
+
+// One pass in place of G-buffer, tiles and lighting.
+void addForward(Builder& b) {
+  const Situation& s = b.s;
+  if (!s.forward()) return;
+  PassPlan& pass = b.pass("forward", {"forward_reference"}, {"meshes", "materials", "lights"}, {"light", "depth"});
+  const bool environment = s.on("environment_lighting");
+  if (needsCube(s.quality, environment)) pass.reads.push_back("environment cube");
+  if (needsDfg(s.quality, environment)) pass.reads.push_back("dfg");
+  for (bool orthographic : s.projections())
+    for (const GeometryVariant& v : s.facts.variants) b.use(pass, forwardProgram(v, s.quality, s.lighting(orthographic)));
+}
+
+void addEmissive(Builder& b) {
+  if (!b.s.on("emissive")) return;
+  PassPlan& pass = b.pass("emissive", {"emissive"}, {"meshes", "materials", "depth"}, {"light"});
+  for (const GeometryVariant& v : b.s.facts.emissiveVariants) b.use(pass, geometryProgram(GeometryPass::Emissive, v, false));
+}
+
+}  // namespace burnish::plan

@@ -1,0 +1,46 @@
+// Light lists, lighting, the background.
+#include "plan/builder.h"
+
+namespace burnish::plan {
+
+void addTiles(Builder& b) {
+  const Situation& s = b.s;
+  // Linear output keeps radiance in floats; a picture for a display is pre-exposed, so that half floats suffice.
+  if (s.final()) b.target("light", s.options.output == Output::Linear ? "RGBA32F" : "RGBA16F", {"tone_mapping", "linear_output", "debug_view", "directional_lights", "local_lights", "environment_lighting", "background", "emissive"});
+  if (!s.hasDepth() || s.forward() || !((s.lit() && s.final()) || s.viewsLights())) return;
+  PassPlan& pass = b.pass("tiles", {"directional_lights", "local_lights", "environment_lighting", "debug_view"}, {"depth", "lights"}, {"light lists"});
+  if (!s.reducesDepth()) return;
+  b.target("tile_depth", "RGBA32F", {"directional_lights", "local_lights", "environment_lighting", "debug_view"}, (s.options.size + 15) / 16);
+  pass.writes.push_back("tile_depth");
+  for (bool o : s.projections()) b.useScreen(pass, o ? "tile_depth+ortho" : "tile_depth", "lighting/tile_depth.frag", {define("ORTHOGRAPHIC", o)});
+}
+
+void addLighting(Builder& b) {
+  const Situation& s = b.s;
+  if (!s.hasDepth() || s.forward() || !s.lit() || !s.final()) return;
+  const bool local = s.on("local_lights"), environment = s.on("environment_lighting");
+  PassPlan& pass = b.pass("lighting", {"directional_lights", "local_lights", "environment_lighting"}, {"gbuffer_a", "gbuffer_b", "depth", "lights", "light lists"}, {"light"});
+  if (s.on("baked_occlusion")) pass.reads.push_back("gbuffer_c");
+  if (needsCube(s.quality, environment)) pass.reads.push_back("environment cube");
+  if (needsDfg(s.quality, environment)) pass.reads.push_back("dfg");
+  for (bool orthographic : s.projections()) {
+    for (int bucket : kTileBuckets) {
+      if (bucket > 0 && !local) break;
+      b.use(pass, lightingProgram(bucket, s.quality, s.lighting(orthographic)));
+      if (bucket >= s.facts.localLights) break;
+    }
+    if (local) b.use(pass, lightingProgram(kLoop, s.quality, s.lighting(orthographic)));
+    if (local && s.facts.spots) b.use(pass, lightingProgram(kLoopSpots, s.quality, s.lighting(orthographic)));
+  }
+}
+
+void addBackground(Builder& b) {
+  const Situation& s = b.s;
+  if (!s.on("background")) return;
+  PassPlan& pass = b.pass("background", {"background"}, {"environment"}, {"light"});
+  if (s.hasDepth()) pass.reads.push_back("depth");
+  for (bool o : s.projections())
+    b.useScreen(pass, o ? "background+ortho" : "background", "lighting/sky.frag", {define("ORTHOGRAPHIC", o), define("SKY_MAP", !s.scene.environment.map.empty())});
+}
+
+}  // namespace burnish::plan

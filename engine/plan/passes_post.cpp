@@ -1,0 +1,50 @@
+// From the light buffer to the target.
+#include "plan/builder.h"
+
+namespace burnish::plan {
+
+void addHostDraw(Builder& b) {
+  if (b.s.on("host_draw")) b.pass("host_draw", {"host_draw"}, {"depth"}, {"light"});
+}
+
+void addExposure(Builder& b) {
+  if (!b.s.on("auto_exposure")) return;
+  b.target("exposure", "RG32F", {"auto_exposure"}, {1, 1});
+  b.useScreen(b.pass("exposure", {"auto_exposure"}, {"light"}, {"exposure"}), "exposure", "post/exposure.frag", {});
+}
+
+void addNonfiniteCount(Builder& b) {
+  if (b.s.on("nonfinite_count")) b.pass("nonfinite_count", {"nonfinite_count"}, {"light"}, {});
+}
+
+void addToneMapping(Builder& b) {
+  const Situation& s = b.s;
+  if (!s.on("tone_mapping") && !s.on("linear_output")) return;
+  const bool automatic = s.on("auto_exposure"), host = s.on("host_depth_in"), linear = s.options.output == Output::Linear;
+  PassPlan& pass = b.pass("tonemap", {"tone_mapping", "linear_output", "host_depth_in"}, {"light"}, {"target"});
+  if (automatic) pass.reads.push_back("exposure");
+  if (host) pass.reads.insert(pass.reads.end(), {"gbuffer_b", "depth"});
+  b.useScreen(pass, "tonemap", "post/tonemap.frag",
+              {define("AUTO_EXPOSURE", automatic), define("HOST_DEPTH", host), define("LINEAR", linear), define("TONEMAP", linear ? 0 : int(s.quality.toneMap))});
+}
+
+void addDebugView(Builder& b) {
+  const Situation& s = b.s;
+  if (!s.on("debug_view")) return;
+  if (s.viewsLights()) {
+    b.use(b.pass("debug_view", {"debug_view"}, {"light lists"}, {"target"}), {"debug_lights", "post/lights.vert", "post/lights.frag", {}});
+    return;
+  }
+  const bool nonfinite = s.options.debugView == DebugView::Nonfinite;
+  PassPlan& pass = b.pass("debug_view", {"debug_view"}, nonfinite ? std::vector<std::string>{"light"} : std::vector<std::string>{"gbuffer_a", "gbuffer_b", "depth"}, {"target"});
+  for (bool o : s.projections())
+    b.useScreen(pass, o ? "debug_view+ortho" : "debug_view", "post/debug.frag",
+                {define("GEOMETRY", s.hasDepth()), define("OCCLUSION", s.on("baked_occlusion")), define("ORTHOGRAPHIC", o), define("VIEW", int(s.options.debugView))});
+}
+
+void addDepthOut(Builder& b) {
+  if (!b.s.on("host_depth_out")) return;
+  b.useScreen(b.pass("depth_out", {"host_depth_out"}, {"depth"}, {"host depth"}), "depth_out", "post/depth_out.frag", {define("GEOMETRY", b.s.hasDepth())});
+}
+
+}  // namespace burnish::plan

@@ -1,0 +1,62 @@
+// What one frame is about: the scene as its views see it, the settings, the machine. Effects judge it (effects.h), passes are planned from it (builder.h).
+#pragma once
+#include <burnish/plan.h>
+
+#include <array>
+#include <set>
+
+#include "plan/variants.h"
+#include "scene/visibility.h"
+
+namespace burnish::plan {
+
+/// One view and what it sees.
+struct Seen {
+  scene::ViewFrame frame;
+  std::vector<scene::VisibleInstance> instances;  ///< nearest first
+  scene::LightSet lights;
+};
+/// What a view sees. `lights` is filled too; what is mended goes into the report.
+void look(const Scene& scene, const scene::Derived& derived, const View& view, glm::ivec2 targetSize, const Quality& quality, Report& report, Seen& out);
+/// As if everything were in view (PlanOptions::wholeScene).
+void lookEverywhere(const Scene& scene, const scene::Derived& derived, const View& view, glm::ivec2 targetSize, const Quality& quality, Report& report, Seen& out);
+
+/// What a scene holds that effects are called by.
+enum class Call : std::uint8_t { Geometry, TwoSided, AlphaTest, BakedOcclusion, Emissive, Directional, Local, Environment, Background, Count };
+struct Facts {
+  std::array<std::string, std::size_t(Call::Count)> why;  ///< the first thing that calls; empty: nothing does
+  int directionalLights = 0, localLights = 0;
+  bool spots = false;
+  std::set<GeometryVariant> variants, emissiveVariants;
+
+  [[nodiscard]] bool has(Call call) const { return !why[std::size_t(call)].empty(); }
+  /// Keeps the first caller: an object of that kind and name, and why it calls.
+  void call(Call call, std::string_view kind, const std::string& name, std::string_view because);
+};
+Facts factsOf(const Scene& scene, std::span<const Seen> views, const Quality& quality);
+
+struct Situation {
+  const Scene& scene;
+  std::span<const Seen> views;
+  const Quality& quality;
+  const Capabilities& caps;
+  const PlanOptions& options;
+  Facts facts;                    ///< of what is in view
+  const Facts* whole = nullptr;   ///< of the whole scene, for the reasons of what is off; may be absent
+  std::vector<EffectPlan> effects;  ///< judged so far
+
+  [[nodiscard]] bool on(std::string_view effect) const;
+  /// The frame ends in a picture of light, not in a view of a buffer.
+  [[nodiscard]] bool final() const { return options.debugView == DebugView::Final || options.debugView == DebugView::Nonfinite; }
+  [[nodiscard]] bool viewsLights() const { return options.debugView == DebugView::Lights; }
+  /// There is a depth buffer: instances or the host's depth are in it.
+  [[nodiscard]] bool hasDepth() const { return on("geometry") || options.hostDepthIn; }
+  [[nodiscard]] bool lit() const { return on("directional_lights") || on("local_lights") || on("environment_lighting"); }
+  [[nodiscard]] bool forward() const { return on("forward_reference"); }
+  [[nodiscard]] bool reducesDepth() const { return options.tileBounds == TileBounds::Reduction || (options.tileBounds == TileBounds::Automatic && !caps.software); }
+  /// The projections that views have: perspective (false), orthographic (true).
+  [[nodiscard]] std::vector<bool> projections() const;
+  [[nodiscard]] LightingVariant lighting(bool orthographic) const;
+};
+
+}  // namespace burnish::plan

@@ -1,0 +1,31 @@
+// What the names of a plan's passes run: one row a pass.
+#pragma once
+#include <memory>
+
+#include "gl/timers.h"
+#include "gpu_scene/frame.h"
+#include "lighting/lighting_pass.h"
+
+namespace burnish {
+
+/// What passes keep between frames. Each is made when a plan first lists a pass that needs it.
+class Modules {
+ public:
+  explicit Modules(gl::Device& device) : device_(device) {}
+  Result<lighting::LightingPass*> lighting();
+
+ private:
+  gl::Device& device_;
+  std::unique_ptr<lighting::LightingPass> lighting_;
+};
+
+struct PassCall {
+  gpu_scene::FrameContext& c;
+  Modules& modules;
+  const Target& target;
+  const RenderRequest& request;
+};
+/// Runs one pass of the plan, timed and in a debug group of its name.
+Result<void> runPass(const PassPlan& pass, PassCall& call, gl::FrameTimers& timers);
+
+}  // namespace burnish

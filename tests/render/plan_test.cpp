@@ -1,0 +1,110 @@
+// The plan as data: what is in view decides, reasons name who calls or would, effects can be taken off the list or forced, every pass and target has an owner.
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+
+#include "gl/formats.h"
+#include "plan/formats.h"
+#include "render/workshop.h"
+
+namespace burnish::test {
+namespace {
+
+FramePlan planOf(const Scene& scene, const View& view, const PlanOptions& options = {.size = {64, 64}}) { return makePlan(scene, {&view, 1}, {}, Capabilities{}, options); }
+
+const EffectPlan& effectOf(const FramePlan& plan, std::string_view name) {
+  const auto found = std::find_if(plan.effects.begin(), plan.effects.end(), [&](const EffectPlan& e) { return e.name == name; });
+  REQUIRE(found != plan.effects.end());
+  return *found;
+}
+
+bool lists(const std::vector<std::string>& names, std::string_view name) { return std::find(names.begin(), names.end(), name) != names.end(); }
+
+}  // namespace
+
+TEST_CASE("the plan is of what the views see: turning away turns effects off, and the reason says who is out of view") {
+  Workshop w;
+  w.scene.materials.edit(w.material)->emission = vec3(1);
+  w.scene.materials.edit(w.material)->alphaTest = true;
+  const View away = lookAt(w.view.eye, w.view.eye * 2.0, {0, 1, 0}, 0.6f);
+  const FramePlan here = planOf(w.scene, w.view), there = planOf(w.scene, away);
+  for (const char* name : {"geometry", "alpha_test", "emissive", "local_lights"}) {
+    CAPTURE(name);
+    CHECK(here.on(name));
+    CHECK(!there.on(name));
+    if (std::string_view(name) != "local_lights") CHECK(effectOf(there, name).reason.starts_with("out of view: "));
+  }
+  CHECK(there.target("gbuffer_a") == nullptr);
+  CHECK(there.pass("emissive") == nullptr);
+  CHECK(there.programs.size() < here.programs.size());
+  PlanOptions whole{.size = {64, 64}};
+  whole.wholeScene = true;
+  const FramePlan all = planOf(w.scene, away, whole);
+  for (const ProgramPlan& p : here.programs) CHECK(std::count(all.programs.begin(), all.programs.end(), p) == 1);
+}
+
+TEST_CASE("a local light out of reach of the view is not planned for") {
+  Scene scene;
+  place(scene, sphere(1, 8, 16), Material{});
+  addLight(scene, light(LightKind::Point, vec3(1), 10, 2), {0, 0, 40});
+  const View view = lookAt({0, 0, 5}, {0, 0, 0});
+  const FramePlan plan = planOf(scene, view);
+  CHECK(!plan.on("local_lights"));
+  CHECK(plan.pass("tiles") == nullptr);
+}
+
+TEST_CASE("effects taken off the list are not planned; scene effects can be forced") {
+  Workshop w;
+  const FramePlan usual = planOf(w.scene, w.view);
+  for (const EffectInfo& info : effectList()) {
+    CAPTURE(info.name);
+    PlanOptions without{.size = {64, 64}}, forced = without;
+    without.removed = {std::string(info.name)};
+    forced.forced = {std::string(info.name)};
+    const FramePlan off = planOf(w.scene, w.view, without);
+    CHECK(off.effects.size() + 1 == usual.effects.size());
+    CHECK(!off.on(info.name));
+    const bool scene = info.calledBy == CalledBy::Scene;
+    CHECK(planOf(w.scene, w.view, forced).on(info.name) == (scene || usual.on(info.name)));
+    for (const PassPlan& pass : off.passes) CHECK(!lists(pass.effects, info.name));
+  }
+}
+
+TEST_CASE("every pass and target of a plan has an effect that calls for it, and effects list them") {
+  Workshop w;
+  w.scene.materials.edit(w.material)->emission = vec3(1);
+  w.scene.materials.edit(w.material)->mapC = w.occlusion;
+  for (DebugView view : {DebugView::Final, DebugView::Lights, DebugView::Normal, DebugView::Nonfinite}) {
+    PlanOptions options{.size = {64, 48}};
+    options.debugView = view;
+    options.countNonfinite = true;
+    const FramePlan plan = planOf(w.scene, w.view, options);
+    for (const PassPlan& pass : plan.passes) {
+      CAPTURE(pass.name);
+      CHECK(!pass.effects.empty());
+      for (const std::string& e : pass.effects) CHECK(lists(effectOf(plan, e).passes, pass.name));
+      for (const std::string& name : pass.programs) CHECK(lists(effectOf(plan, pass.effects.front()).programs, name));
+    }
+    for (const TargetPlan& target : plan.targets) {
+      CAPTURE(target.name);
+      CHECK(!target.effects.empty());
+      for (const std::string& e : target.effects) CHECK(effectOf(plan, e).bytes >= target.bytes);
+      CHECK(target.bytes > 0);
+    }
+    for (const EffectPlan& e : plan.effects)
+      if (!e.on) CHECK((e.passes.empty() && e.targets.empty() && e.programs.empty() && e.bytes == 0));
+  }
+}
+
+TEST_CASE("bytes of target formats agree with OpenGL's table") {
+  int known = 0;
+  for (const gl::FormatInfo& f : gl::formats())
+    if (const int bytes = plan::bytesOf(f.name)) {
+      CHECK(bytes == f.bytes);
+      ++known;
+    }
+  CHECK(known >= 16);
+  CHECK(plan::bytesOf("RGBA7") == 0);
+}
+
+}  // namespace burnish::test
