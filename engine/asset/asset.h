@@ -57,17 +57,26 @@ struct Material {
   float glossiness = 1;
   TextureRef diffuseTexture, specularGlossinessTexture;
 };
+/// What a weight of 1 adds; streams are empty or as long as the primitive's positions.
+struct MorphTarget {
+  std::vector<glm::vec3> positions, normals, tangents;
+};
 struct Primitive {  ///< always an indexed triangle list; strips, fans and non-indexed ones were converted
   std::vector<glm::vec3> positions, normals;
   std::vector<glm::vec4> tangents;
   std::vector<glm::vec2> uv0, uv1;
   std::vector<glm::vec4> colors;
   std::vector<std::uint32_t> indices;
+  std::vector<glm::u16vec4> joints;  ///< with `weights` or not at all; of more than four joints a vertex the strongest four, their sum as it was
+  std::vector<glm::vec4> weights;    ///< not negative
+  std::vector<MorphTarget> targets;  ///< as many in each primitive of a mesh
   int material = -1;
 };
 struct Mesh {
   std::string name;
   std::vector<Primitive> primitives;
+  std::vector<float> weights;            ///< of the morph targets; empty: zeros
+  std::vector<std::string> targetNames;  ///< extras.targetNames; empty, or one for each target
 };
 struct Camera {
   std::string name;
@@ -85,6 +94,30 @@ struct Node {
   int parent = -1;
   glm::dmat4 local{1};
   int mesh = -1, camera = -1, light = -1;
+  int skin = -1;
+  std::vector<float> weights;  ///< of the mesh's morph targets; empty: the mesh's own
+  glm::dvec3 translation{0}, scale{1};  ///< with `rotation` what `local` is made of, where the file gives no matrix
+  glm::dquat rotation{1, 0, 0, 0};
+};
+struct Skin {
+  std::string name;
+  std::vector<int> joints;             ///< indices into Asset::nodes; empty when the shown scene lacks them (no node of it then has the skin)
+  std::vector<glm::mat4> inverseBind;  ///< one a joint; empty: identities
+};
+enum class Interpolation : std::uint8_t { Linear, Step, CubicSpline };
+struct AnimationSampler {
+  Interpolation interpolation = Interpolation::Linear;
+  std::vector<float> times;   ///< strictly growing; empty: the sampler's data are missing or faulty (a warning says which) and no channel names it
+  std::vector<float> values;  ///< CubicSpline: three for each that the others have
+};
+struct AnimationChannel {
+  enum class Path : std::uint8_t { Translation, Rotation, Scale, Weights } path = Path::Translation;
+  int sampler = -1, node = -1;
+};
+struct Animation {
+  std::string name;
+  std::vector<AnimationSampler> samplers;
+  std::vector<AnimationChannel> channels;  ///< those whose node is shown
 };
 struct Asset {
   std::string name;             ///< file name, for messages
@@ -96,6 +129,8 @@ struct Asset {
   std::vector<Node> nodes;      ///< of the file's default scene only (scene 0 without one), parents before children
   std::vector<Camera> cameras;
   std::vector<Light> lights;
+  std::vector<Skin> skins;
+  std::vector<Animation> animations;
   std::string environment;      ///< scene.extras.burnish.environment: path relative to the file's folder; empty: none
 };
 

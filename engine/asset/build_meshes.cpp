@@ -4,20 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "asset/elements.h"
+#include "asset/gather.h"
 
 namespace burnish::asset {
 namespace {
 
 enum Mode { Triangles = 4, TriangleStrip = 5, TriangleFan = 6 };
-
-struct Builder {
-  Check& check;
-  const Document& doc;
-  std::uint64_t bytesLeft;  // of output: a small file may name the same data very often
-};
-
-const Accessor& accessorAt(const Builder& b, int index) { return b.doc.accessors[std::size_t(index)]; }
 
 // The indices as stored; without an accessor 0, 1, 2, ... Each is checked against the number of vertices.
 std::vector<std::uint32_t> readIndices(Builder& b, const PrimitiveSource& p, std::uint64_t vertices,
@@ -80,39 +72,6 @@ std::vector<std::uint32_t> compact(std::vector<std::uint32_t>& indices, std::uin
   return used;
 }
 
-struct Gather {
-  Builder& b;
-  const PrimitiveSource& source;
-  const std::vector<std::uint32_t>& used;  // empty: all vertices
-  std::uint64_t vertices;
-  const std::string& path;
-
-  template <class V>
-  std::vector<V> operator()(const char* semantic, V fill = V(0)) const {
-    std::vector<V> out;
-    const int accessor = source.find(semantic);
-    const std::uint64_t count = used.empty() ? vertices : used.size();
-    if (accessor < 0 || !b.check.ok()) return out;
-    if (count * sizeof(V) > b.bytesLeft) {
-      b.check.fail(path, "the primitives stand for far more data than the file holds",
-                   "share meshes between nodes, not data between meshes");
-      return out;
-    }
-    b.bytesLeft -= count * sizeof(V);
-    const Accessor& a = accessorAt(b, accessor);
-    const Elements e(b.doc, a);
-    const int n = std::min(a.components(), int(V::length()));
-    out.assign(count, fill);
-    const auto put = [&](std::uint64_t i, const double* v) {
-      for (int c = 0; c < n; ++c) out[i][c] = float(a.normalized ? std::max(v[c] * e.scale(), -1.0) : v[c]);
-    };
-    double v[16];
-    for (std::size_t i = 0; i < used.size(); ++i) e.at(used[i], v), put(i, v);
-    if (used.empty()) e.each(put);
-    return out;
-  }
-};
-
 void mendColors(Check& check, std::vector<glm::vec4>& colors, const std::string& path) {
   bool clamped = false;
   for (glm::vec4& c : colors) {
@@ -139,7 +98,7 @@ bool dataMissing(const Builder& b, const PrimitiveSource& p) {
   };
   for (const char* semantic : {"POSITION", "NORMAL", "TANGENT", "TEXCOORD_0", "TEXCOORD_1", "COLOR_0"})
     if (missing(p.find(semantic))) return true;
-  return missing(p.indices);
+  return missing(p.indices) || deformationMissing(b, p);
 }
 
 // What the material asks of the primitive, and what the primitive brings in vain.
@@ -186,16 +145,19 @@ void buildPrimitive(Builder& b, const PrimitiveSource& p, const std::string& pat
   mendColors(b.check, out.colors, path);
   mendTangents(b.check, out.tangents, path);
   warnOfAttributes(b, p, path);
+  gatherDeformation(gather, out);
   mesh.primitives.push_back(std::move(out));
 }
 
 }  // namespace
 
 std::vector<Mesh> buildMeshes(Check& check, const Document& doc, std::uint64_t sourceBytes) {
-  Builder b{check, doc, (std::uint64_t(128) << 20) + 64 * sourceBytes};
+  Builder b{check, doc, outputBudget(sourceBytes)};
   std::vector<Mesh> meshes(doc.meshes.size());
   for (std::size_t m = 0; m < meshes.size(); ++m) {
     meshes[m].name = doc.meshes[m].name;
+    meshes[m].weights.assign(doc.meshes[m].weights.begin(), doc.meshes[m].weights.end());
+    meshes[m].targetNames = doc.meshes[m].targetNames;
     for (std::size_t p = 0; check.ok() && p < doc.meshes[m].primitives.size(); ++p)
       buildPrimitive(b, doc.meshes[m].primitives[p], fmt::format("/meshes/{}/primitives/{}", m, p), meshes[m]);
   }

@@ -70,17 +70,21 @@ struct PrimitiveSource {
 struct MeshSource {
   std::string name;
   std::vector<PrimitiveSource> primitives;
-  std::size_t weights = 0;
+  std::vector<double> weights;
+  std::vector<std::string> targetNames;
 };
 struct NodeSource {
   std::string name;
   std::vector<int> children;
   int parent = -1, mesh = -1, camera = -1, skin = -1, light = -1;
   glm::dmat4 local{1};
+  glm::dvec3 translation{0}, scale{1};
+  glm::dquat rotation{1, 0, 0, 0};
   bool hasMatrix = false;
-  std::size_t weights = 0;
+  std::vector<double> weights;
 };
 struct SkinSource {
+  std::string name;
   std::vector<int> joints;
   int skeleton = -1, inverseBindMatrices = -1;
 };
@@ -88,17 +92,19 @@ struct SceneSource {
   std::string name, environment;
   std::vector<int> nodes;
 };
-struct AnimationSampler {
+struct SamplerSource {
   int input = -1, output = -1;
-  bool cubic = false;
+  Interpolation interpolation = Interpolation::Linear;
+  [[nodiscard]] bool cubic() const { return interpolation == Interpolation::CubicSpline; }
 };
-struct AnimationChannel {
+struct ChannelSource {
   int sampler = -1, node = -1;
   std::string path;
 };
-struct Animation {
-  std::vector<AnimationSampler> samplers;
-  std::vector<AnimationChannel> channels;
+struct AnimationSource {
+  std::string name;
+  std::vector<SamplerSource> samplers;
+  std::vector<ChannelSource> channels;
 };
 
 struct Document {
@@ -114,7 +120,7 @@ struct Document {
   std::vector<Camera> cameras;
   std::vector<Light> lights;
   std::vector<SkinSource> skins;
-  std::vector<Animation> animations;
+  std::vector<AnimationSource> animations;
   std::vector<SceneSource> scenes;
   int scene = -1;
   bool quantized = false;  ///< KHR_mesh_quantization widens the formats of vertex attributes

@@ -80,5 +80,8 @@ void validateData(Check& check, const Document& doc, std::uint64_t sourceBytes);
 /// Meshes with their vertices, indices checked against them. Primitives that cannot be shown are left out with a
 /// warning.
 std::vector<Mesh> buildMeshes(Check& check, const Document& doc, std::uint64_t sourceBytes);
+/// Skins and animations into the asset, whose nodes are there; `shown`: the asset's node for each of the document's, -1
+/// for those that the scene does not show.
+void buildMotion(Check& check, const Document& doc, const std::vector<int>& shown, std::uint64_t sourceBytes, Asset& asset);
 
 }  // namespace burnish::asset

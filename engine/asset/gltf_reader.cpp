@@ -30,7 +30,8 @@ std::vector<int> rootsOf(const Document& doc) {
 }
 
 // Depth first, parents before children, with a stack of our own: trees may be as deep as they have nodes.
-std::vector<Node> buildNodes(Check& check, const Document& doc) {
+// `shown` gets the place of each of the document's nodes in the result, -1 for those that are not in it.
+std::vector<Node> buildNodes(Check& check, const Document& doc, std::vector<int>& shown) {
   struct Todo {
     int source, parent;
   };
@@ -49,7 +50,9 @@ std::vector<Node> buildNodes(Check& check, const Document& doc) {
     if (!finite(world.back()))
       check.fail(fmt::format("/nodes/{}", todo.source), "the node's transform in the scene is not finite");
     push(n.children, int(out.size()));
-    out.push_back({n.name, todo.parent, n.local, n.mesh, n.camera, n.light});
+    shown[std::size_t(todo.source)] = int(out.size());
+    out.push_back({n.name, todo.parent, n.local, n.mesh, n.camera, n.light, n.skin,
+                   std::vector<float>(n.weights.begin(), n.weights.end()), n.translation, n.scale, n.rotation});
   }
   return out;
 }
@@ -70,7 +73,9 @@ Result<Asset> finish(Check& check, Document& doc, Source& source, std::uint64_t 
   for (const Buffer& b : doc.buffers) sourceBytes += b.owned.size();
   if (check.ok()) validateData(check, doc, sourceBytes);
   if (check.ok()) asset.meshes = buildMeshes(check, doc, sourceBytes);
-  if (check.ok()) asset.nodes = buildNodes(check, doc);
+  std::vector<int> shown(doc.nodes.size(), -1);
+  if (check.ok()) asset.nodes = buildNodes(check, doc, shown);
+  if (check.ok()) buildMotion(check, doc, shown, sourceBytes, asset);
   if (check.ok()) checkEnvironment(check, doc, source);
   if (check.ok()) asset.pictures = loadPictures(check, doc, source, decoder);
   if (!check.ok()) return fail(check.error());

@@ -1,19 +1,26 @@
-// Animations: read only to be checked, and to be named in a warning.
+// Animations: their samplers and channels as they stand in the file.
 #include "asset/document.h"
 
 namespace burnish::asset {
 namespace {
 
-void parseSampler(const At& at, Check& check, Animation& a) {
-  AnimationSampler& s = a.samplers.emplace_back();
+void parseSampler(const At& at, Check& check, AnimationSource& a) {
+  SamplerSource& s = a.samplers.emplace_back();
   check.known(at, {"input", "interpolation", "output"});
   s.input = check.reference(at, "input", Table::Accessors, Need::Required);
   s.output = check.reference(at, "output", Table::Accessors, Need::Required);
-  if (const std::string* kind = check.string(at, "interpolation")) s.cubic = *kind == "CUBICSPLINE";
+  const std::string* kind = check.string(at, "interpolation");
+  if (!kind || *kind == "LINEAR") return;
+  if (*kind == "STEP")
+    s.interpolation = Interpolation::Step;
+  else if (*kind == "CUBICSPLINE")
+    s.interpolation = Interpolation::CubicSpline;
+  else
+    check.warn(at.path() + "/interpolation", "an unknown interpolation is taken for LINEAR");
 }
 
-void parseChannel(const At& at, Check& check, Animation& a) {
-  AnimationChannel& c = a.channels.emplace_back();
+void parseChannel(const At& at, Check& check, AnimationSource& a) {
+  ChannelSource& c = a.channels.emplace_back();
   check.known(at, {"sampler", "target"});
   const std::uint64_t sampler = check.integer(at, "sampler", 0, 0, Check::kMaxInteger, Need::Required);
   if (check.ok() && sampler >= a.samplers.size())
@@ -33,8 +40,9 @@ void parseChannel(const At& at, Check& check, Animation& a) {
 
 void parseAnimations(const At& root, Check& check, Document& doc) {
   check.eachObject(root, "animations", [&](const At& at, std::size_t) {
-    Animation& a = doc.animations.emplace_back();
+    AnimationSource& a = doc.animations.emplace_back();
     check.known(at, {"channels", "samplers"});
+    if (const std::string* name = check.string(at, "name")) a.name = *name;
     check.eachObject(
         at, "samplers", [&](const At& s, std::size_t) { parseSampler(s, check, a); }, Need::Required);
     check.eachObject(

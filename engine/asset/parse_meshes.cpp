@@ -79,13 +79,25 @@ void parsePrimitive(const At& at, Check& check, MeshSource& mesh) {
   }
 }
 
+// extras.targetNames, a convention of many writers: extras are free-form, so what is no list of that many strings is not
+// one.
+std::vector<std::string> targetNames(const At& mesh, std::size_t targets) {
+  std::vector<std::string> names;
+  const auto extras = mesh->find("extras");
+  if (extras == mesh->end() || !extras->is_object()) return names;
+  const auto list = extras->find("targetNames");
+  if (list == extras->end() || !list->is_array() || list->size() != targets) return names;
+  for (const Json& name : *list) names.push_back(name.is_string() ? name.get<std::string>() : std::string());
+  return names;
+}
+
 void parseMesh(const At& at, Check& check, Document& doc) {
   MeshSource& mesh = doc.meshes.emplace_back();
   check.known(at, {"primitives", "weights"});
   if (const std::string* name = check.string(at, "name")) mesh.name = *name;
   check.eachObject(
       at, "primitives", [&](const At& p, std::size_t) { parsePrimitive(p, check, mesh); }, Need::Required);
-  mesh.weights = check.numberList(at, "weights", 0).size();
+  mesh.weights = check.numberList(at, "weights", 0);
   if (!check.ok()) return;
   const std::size_t targets = mesh.primitives[0].targets.size();
   for (std::size_t i = 1; i < mesh.primitives.size(); ++i)
@@ -93,8 +105,9 @@ void parseMesh(const At& at, Check& check, Document& doc) {
       check.fail(
           fmt::format("{}/primitives/{}", at.path(), i),
           fmt::format("{} morph targets where the first primitive has {}", mesh.primitives[i].targets.size(), targets));
-  if (mesh.weights && mesh.weights != targets)
-    check.fail(at.path() + "/weights", fmt::format("{} weights for {} morph targets", mesh.weights, targets));
+  if (!mesh.weights.empty() && mesh.weights.size() != targets)
+    check.fail(at.path() + "/weights", fmt::format("{} weights for {} morph targets", mesh.weights.size(), targets));
+  mesh.targetNames = targetNames(at, targets);
 }
 
 }  // namespace

@@ -101,7 +101,10 @@ void parseTrs(const At& at, Check& check, NodeSource& n) {
   if (length < 1e-6) return check.fail(at.path() + "/rotation", "the quaternion is zero");
   if (std::abs(length - 1) > 1e-3)
     check.warn(at.path() + "/rotation", "the quaternion is not of unit length: it is normalized");
-  const glm::dmat3 rotation = glm::mat3_cast(glm::dquat(q[3] / length, q[0] / length, q[1] / length, q[2] / length));
+  n.translation = {t[0], t[1], t[2]};
+  n.rotation = glm::dquat(q[3] / length, q[0] / length, q[1] / length, q[2] / length);
+  n.scale = {s[0], s[1], s[2]};
+  const glm::dmat3 rotation = glm::mat3_cast(n.rotation);
   for (int c = 0; c < 3; ++c) n.local[c] = glm::dvec4(rotation[c] * s[std::size_t(c)], 0);
   n.local[3] = glm::dvec4(t[0], t[1], t[2], 1);
 }
@@ -127,7 +130,7 @@ void parseNode(const At& at, Check& check, Document& doc) {
   n.mesh = check.reference(at, "mesh", Table::Meshes);
   n.skin = check.reference(at, "skin", Table::Skins);
   n.children = check.references(at, "children", Table::Nodes);
-  n.weights = check.numberList(at, "weights", 0).size();
+  n.weights = check.numberList(at, "weights", 0);
   if (check.ok() && n.mesh < 0)
     for (const char* key : {"skin", "weights"})
       if (at->contains(key)) check.fail(at.path() + "/" + key, fmt::format("a node with {} needs a mesh", key));
@@ -144,6 +147,7 @@ void parseNode(const At& at, Check& check, Document& doc) {
 void parseSkin(const At& at, Check& check, Document& doc) {
   SkinSource& s = doc.skins.emplace_back();
   check.known(at, {"inverseBindMatrices", "skeleton", "joints"});
+  if (const std::string* name = check.string(at, "name")) s.name = *name;
   s.joints = check.references(at, "joints", Table::Nodes, Need::Required);
   s.skeleton = check.reference(at, "skeleton", Table::Nodes);
   s.inverseBindMatrices = check.reference(at, "inverseBindMatrices", Table::Accessors);

@@ -1,5 +1,4 @@
-// Animations against the nodes and accessors that they name (glTF 2.0, section 3.11). They are not played, yet a fault
-// in them is a fault of the file.
+// Animations against the nodes and accessors that they name (glTF 2.0, section 3.11).
 #include <fmt/format.h>
 
 #include "asset/document.h"
@@ -7,14 +6,14 @@
 namespace burnish::asset {
 namespace {
 
-void checkSamplerInput(Check& check, Document& doc, const AnimationSampler& s, const std::string& path) {
+void checkSamplerInput(Check& check, Document& doc, const SamplerSource& s, const std::string& path) {
   const Accessor& a = doc.accessors[std::size_t(s.input)];
   if (a.shape != Shape::Scalar || a.component != Component::F32)
     return check.fail(path, fmt::format("accessor {} is {}, not SCALAR of FLOAT", s.input,
                                         formatName(a.shape, a.component, a.normalized)));
   if (a.min.empty() || a.max.empty())
     return check.fail(path, fmt::format("accessor {} has no min and max, which times need", s.input));
-  if (s.cubic && a.count < 2) return check.fail(path, "a cubic spline needs two key frames at least");
+  if (s.cubic() && a.count < 2) return check.fail(path, "a cubic spline needs two key frames at least");
   useView(check, doc, a.view, Usage::Animation, path);
 }
 
@@ -25,7 +24,7 @@ bool outputFits(const Accessor& a, const std::string& path) {
   return a.shape == Shape::Vec3 && a.component == Component::F32;
 }
 
-void checkChannel(Check& check, Document& doc, const Animation& animation, const AnimationChannel& c,
+void checkChannel(Check& check, Document& doc, const AnimationSource& animation, const ChannelSource& c,
                   const std::string& path) {
   if (c.path != "translation" && c.path != "rotation" && c.path != "scale" && c.path != "weights")
     return check.warn(path + "/target/path", fmt::format("unknown animation path '{}'", c.path.substr(0, 40)));
@@ -40,21 +39,21 @@ void checkChannel(Check& check, Document& doc, const Animation& animation, const
       return check.fail(path + "/target", fmt::format("node {} has no morph targets to weigh", c.node));
     if (c.path == "weights") width = targets;
   }
-  const AnimationSampler& s = animation.samplers[std::size_t(c.sampler)];
+  const SamplerSource& s = animation.samplers[std::size_t(c.sampler)];
   const Accessor& a = doc.accessors[std::size_t(s.output)];
   if (!outputFits(a, c.path))
     return check.fail(path + "/sampler", fmt::format("output accessor {} is {}, which {} cannot be", s.output,
                                                      formatName(a.shape, a.component, a.normalized), c.path));
-  const std::uint64_t expected = doc.accessors[std::size_t(s.input)].count * (s.cubic ? 3 : 1) * width;
+  const std::uint64_t expected = doc.accessors[std::size_t(s.input)].count * (s.cubic() ? 3 : 1) * width;
   if (a.count != expected && (c.node >= 0 || c.path != "weights"))
     check.fail(path + "/sampler",
                fmt::format("output accessor {} has {} elements, {} are expected", s.output, a.count, expected));
 }
 
-void checkDuplicates(Check& check, const Animation& animation, const std::string& path) {
+void checkDuplicates(Check& check, const AnimationSource& animation, const std::string& path) {
   std::map<std::pair<int, std::string_view>, std::size_t> seen;
   for (std::size_t i = 0; check.ok() && i < animation.channels.size(); ++i) {
-    const AnimationChannel& c = animation.channels[i];
+    const ChannelSource& c = animation.channels[i];
     if (c.node < 0) continue;
     const auto [first, fresh] = seen.try_emplace({c.node, c.path}, i);
     if (!fresh)
@@ -67,7 +66,7 @@ void checkDuplicates(Check& check, const Animation& animation, const std::string
 
 void validateAnimations(Check& check, Document& doc) {
   for (std::size_t i = 0; check.ok() && i < doc.animations.size(); ++i) {
-    const Animation& animation = doc.animations[i];
+    const AnimationSource& animation = doc.animations[i];
     const std::string path = fmt::format("/animations/{}", i);
     for (std::size_t s = 0; check.ok() && s < animation.samplers.size(); ++s) {
       const std::string place = fmt::format("{}/samplers/{}", path, s);
@@ -79,7 +78,6 @@ void validateAnimations(Check& check, Document& doc) {
       checkChannel(check, doc, animation, animation.channels[c], fmt::format("{}/channels/{}", path, c));
     checkDuplicates(check, animation, path);
   }
-  if (!doc.animations.empty()) check.warn("/animations", "animations are not supported: the file's rest pose is shown");
 }
 
 }  // namespace burnish::asset

@@ -138,13 +138,13 @@ void checkTimes(Check& check, const Document& doc, int accessor, const std::stri
 
 // Rotations far from unit length are no rounding. Of cubic splines only the middle of each three elements is a
 // rotation.
-void checkRotations(Check& check, const Document& doc, const AnimationSampler& s, const std::string& path) {
+void checkRotations(Check& check, const Document& doc, const SamplerSource& s, const std::string& path) {
   const Accessor& a = doc.accessors[std::size_t(s.output)];
   const Elements e(doc, a);
   if (!e.available() || (a.view < 0 && !a.sparse)) return;
   double worst = 1;
   e.each([&](std::uint64_t i, const double* v) {
-    if (s.cubic && i % 3 != 1) return;
+    if (s.cubic() && i % 3 != 1) return;
     const double length = std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2] + v[3] * v[3]) * e.scale();
     if (std::abs(length - 1) > std::abs(worst - 1)) worst = length;
   });
@@ -154,7 +154,7 @@ void checkRotations(Check& check, const Document& doc, const AnimationSampler& s
 void checkAnimations(Check& check, const Document& doc) {
   std::vector<bool> checked(doc.accessors.size() * 2);  // times, rotations
   for (std::size_t i = 0; i < doc.animations.size(); ++i) {
-    const Animation& animation = doc.animations[i];
+    const AnimationSource& animation = doc.animations[i];
     for (std::size_t s = 0; check.ok() && s < animation.samplers.size(); ++s) {
       const std::size_t input = std::size_t(animation.samplers[s].input);
       if (!checked[input * 2])
@@ -162,7 +162,7 @@ void checkAnimations(Check& check, const Document& doc) {
       checked[input * 2] = true;
     }
     for (std::size_t c = 0; check.ok() && c < animation.channels.size(); ++c) {
-      const AnimationSampler& s = animation.samplers[std::size_t(animation.channels[c].sampler)];
+      const SamplerSource& s = animation.samplers[std::size_t(animation.channels[c].sampler)];
       const std::size_t output = std::size_t(s.output);
       if (animation.channels[c].path != "rotation" || checked[output * 2 + 1]) continue;
       checked[output * 2 + 1] = true;

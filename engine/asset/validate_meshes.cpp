@@ -139,8 +139,6 @@ void validateMeshes(Check& check, Document& doc) {
       checkAttributes(p);
       if (check.ok()) checkTargets(p);
       if (check.ok()) checkIndices(p);
-      if (!p.source.targets.empty())
-        check.warn(p.path + "/targets", "morph targets are not supported: the base shape is shown");
     }
 }
 

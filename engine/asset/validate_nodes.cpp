@@ -46,8 +46,8 @@ void checkMeshOfNode(Check& check, const Document& doc, std::size_t index) {
   if (n.mesh < 0) return;
   const MeshSource& mesh = doc.meshes[std::size_t(n.mesh)];
   const std::size_t targets = mesh.primitives[0].targets.size();
-  if (n.weights && n.weights != targets)
-    check.fail(nodePath(index, "/weights"), fmt::format("{} weights for {} morph targets", n.weights, targets));
+  if (!n.weights.empty() && n.weights.size() != targets)
+    check.fail(nodePath(index, "/weights"), fmt::format("{} weights for {} morph targets", n.weights.size(), targets));
   const bool skinned = std::any_of(mesh.primitives.begin(), mesh.primitives.end(),
                                    [](const PrimitiveSource& p) { return p.find("JOINTS_0") >= 0; });
   if (n.skin >= 0 && !skinned)
@@ -147,7 +147,6 @@ void validateSkins(Check& check, Document& doc) {
   const Walk walk(doc);
   for (std::size_t i = 0; check.ok() && i < doc.skins.size(); ++i) checkSkin(check, doc, walk, i);
   if (check.ok()) checkSkinsInScenes(check, doc, walk);
-  check.warn("/skins", "skins are not supported: meshes are shown in their bind pose");
 }
 
 }  // namespace burnish::asset

@@ -231,23 +231,6 @@ TEST_CASE("cameras and lights", "[gltf]") {
   CHECK(readJson(file).message().find("/extensions/KHR_lights_punctual/lights/1/spot") != std::string::npos);
 }
 
-TEST_CASE("skins, morph targets and animations are named and left out", "[gltf]") {
-  MeshFile f;
-  f.positions(3);
-  f.attribute("JOINTS_0", f.accessor("VEC4", 5121, 3, std::string(12, '\0')));
-  f.attribute("WEIGHTS_0", f.accessor("VEC4", 5126, 3, std::string(48, '\0')));
-  f.primitive["targets"] = {{{"POSITION", 0}}};
-  f.json["skins"] = {{{"joints", {0}}}};
-  f.json["nodes"][0]["skin"] = 0;
-  const int times = f.accessor("SCALAR", 5126, 2, bytes<float>({0, 1}), {{"min", {0}}, {"max", {1}}});
-  const int path = f.accessor("VEC3", 5126, 2, std::string(24, '\0'));
-  f.json["animations"] = {{{"samplers", {{{"input", times}, {"output", path}}}},
-                           {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}}}};
-  const Reading r = f.readIn(box());
-  only(r);
-  CHECK((r.warned("skins are not") && r.warned("morph targets are not") && r.warned("animations are not")));
-}
-
 TEST_CASE("GLB: chunk and data URI", "[gltf]") {
   MeshFile f;
   f.positions(3);
