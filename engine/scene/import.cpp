@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "core/file.h"
 #include "scene/convert_material.h"
@@ -22,6 +23,7 @@ class Importer {
     if (auto r = materials(); !r) return fail(r.error());
     if (auto r = meshes(); !r) return fail(r.error());
     nodes();
+    animations();
     return std::move(scene_);
   }
 
@@ -79,6 +81,13 @@ class Importer {
     out.uv1 = std::move(in.uv1);
     out.colors = std::move(in.colors);
     out.indices = std::move(in.indices);
+    out.joints = std::move(in.joints);
+    out.weights = std::move(in.weights);
+    for (std::size_t t = 0; t < in.targets.size(); ++t) {
+      asset::MorphTarget& target = in.targets[t];
+      out.targets.push_back({t < mesh.targetNames.size() ? mesh.targetNames[t] : std::string(), std::move(target.positions),
+                             std::move(target.normals), std::move(target.tangents)});
+    }
     auto good = validated(std::move(out), faults_);
     if (!good)
       return fail(fmt::format("{}: /meshes/{}/primitives/{}", asset_.name, m, p), good.error().what,
@@ -97,18 +106,84 @@ class Importer {
   }
 
   void nodes() {
-    std::vector<Id<Node>> ids;
-    ids.reserve(asset_.nodes.size());
-    for (const asset::Node& in : asset_.nodes) {
-      const Id<Node> id =
-          scene_.nodes.add({in.name, in.parent >= 0 ? ids[std::size_t(in.parent)] : Id<Node>{}, in.local});
-      ids.push_back(id);
+    for (const asset::Node& in : asset_.nodes)
+      nodes_.push_back(
+          scene_.nodes.add({in.name, in.parent >= 0 ? nodes_[std::size_t(in.parent)] : Id<Node>{}, in.local}));
+    skins();
+    instances_.resize(asset_.nodes.size());
+    for (std::size_t n = 0; n < asset_.nodes.size(); ++n) {
+      const asset::Node& in = asset_.nodes[n];
+      const Id<Node> id = nodes_[n];
       if (in.mesh >= 0)
         for (const auto& [mesh, material] : meshes_[std::size_t(in.mesh)])
-          scene_.instances.add({in.name.empty() ? scene_.meshes.get(mesh)->name : in.name, id, mesh, material});
+          instances_[n].push_back(scene_.instances.add(instanceOf(in, id, mesh, material)));
       if (in.camera >= 0) scene_.cameras.add(cameraOf(asset_.cameras[std::size_t(in.camera)], in, id));
       if (in.light >= 0) scene_.lights.add(lightOf(asset_.lights[std::size_t(in.light)], in, id));
     }
+  }
+
+  void skins() {
+    for (const asset::Skin& in : asset_.skins) {
+      Skin out{in.name, {}, in.inverseBind};
+      for (const int joint : in.joints) out.joints.push_back(nodes_[std::size_t(joint)]);
+      const auto flat = std::count_if(out.inverseBind.begin(), out.inverseBind.end(),
+                                      [](const glm::mat4& m) { return glm::determinant(glm::dmat4(m)) == 0; });
+      if (flat > 0)
+        report_.warn(fmt::format("{}: skin \"{}\"", asset_.name, in.name),
+                     fmt::format("{} inverse bind matrices are singular: what hangs on their joints is flat", flat));
+      skins_.push_back(in.joints.empty() ? Id<Skin>{} : scene_.skins.add(std::move(out)));
+    }
+  }
+
+  [[nodiscard]] Instance instanceOf(const asset::Node& in, Id<Node> node, Id<Mesh> mesh, Id<Material> material) const {
+    const Mesh& m = *scene_.meshes.get(mesh);
+    Instance out{in.name.empty() ? m.name : in.name, node, mesh, material};
+    if (in.skin >= 0 && !m.joints.empty()) out.skin = skins_[std::size_t(in.skin)];
+    if (m.targets.empty()) return out;
+    out.morphWeights = in.weights.empty() ? asset_.meshes[std::size_t(in.mesh)].weights : in.weights;
+    out.morphWeights.resize(m.targets.size());
+    return out;
+  }
+
+  void animations() {
+    if (scene_.skins.size() > 0)
+      report_.warn(asset_.name, "skins are not drawn yet: meshes are shown in their bind pose");
+    bool morphs = false;
+    scene_.meshes.each([&](Id<Mesh>, const Mesh& m) { morphs = morphs || !m.targets.empty(); });
+    if (morphs) report_.warn(asset_.name, "morph targets are not drawn yet: the base shape is shown");
+    for (std::size_t i = 0; i < asset_.animations.size(); ++i) {
+      asset::Animation& in = asset_.animations[i];
+      Animation out;
+      out.name = in.name;
+      for (asset::AnimationSampler& s : in.samplers)
+        out.curves.push_back({s.interpolation == asset::Interpolation::Step     ? Interpolation::Step
+                              : s.interpolation == asset::Interpolation::Linear ? Interpolation::Linear
+                                                                                : Interpolation::CubicSpline,
+                              std::move(s.times), std::move(s.values)});
+      std::map<int, std::size_t> tracks;
+      for (const asset::AnimationChannel& c : in.channels) addChannel(c, out, tracks);
+      if (out.nodes.empty() && out.weights.empty())
+        report_.warn(fmt::format("{}: /animations/{}", asset_.name, i), "the animation moves nothing that is shown");
+      else
+        scene_.animations.add(std::move(out));
+    }
+  }
+
+  /// `tracks`: the node track of each of the asset's nodes that has one.
+  void addChannel(const asset::AnimationChannel& c, Animation& out, std::map<int, std::size_t>& tracks) {
+    using Path = asset::AnimationChannel::Path;
+    const asset::Node& node = asset_.nodes[std::size_t(c.node)];
+    if (c.path == Path::Weights) {
+      const std::vector<Id<Instance>>& instances = instances_[std::size_t(c.node)];
+      if (!instances.empty())
+        out.weights.push_back(
+            {instances, int(scene_.instances.get(instances[0])->morphWeights.size()), c.sampler});
+      return;
+    }
+    const auto [track, fresh] = tracks.try_emplace(c.node, out.nodes.size());
+    if (fresh) out.nodes.push_back({nodes_[std::size_t(c.node)], node.translation, node.rotation, node.scale});
+    Animation::NodeTrack& t = out.nodes[track->second];
+    (c.path == Path::Translation ? t.translation : c.path == Path::Rotation ? t.rotation : t.scale) = c.sampler;
   }
 
   static Camera cameraOf(const asset::Camera& in, const asset::Node& node, Id<Node> id) {
@@ -151,6 +226,9 @@ class Importer {
   std::vector<MaterialConverter::Converted> materials_;
   MeshFaults faults_;                      ///< of all meshes together: one warning for each kind
   std::vector<std::vector<Part>> meshes_;  ///< by the asset's mesh
+  std::vector<Id<Node>> nodes_;                     ///< by the asset's node
+  std::vector<std::vector<Id<Instance>>> instances_;  ///< by the asset's node
+  std::vector<Id<Skin>> skins_;                     ///< by the asset's skin
 };
 
 /// The file's own environment. A path that is missing or leaves the folder is an error as for buffers; a picture that

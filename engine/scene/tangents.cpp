@@ -236,6 +236,13 @@ class Builder {
     copy(mesh_.uv0);
     copy(mesh_.uv1);
     copy(mesh_.colors);
+    copy(mesh_.joints);
+    copy(mesh_.weights);
+    for (MorphTarget& t : mesh_.targets) {
+      copy(t.positions);
+      copy(t.normals);
+      copy(t.tangents);
+    }
     weld_.push_back(weld_[v]);
     mesh_.tangents.push_back(glm::vec4(0));
     return std::uint32_t(mesh_.positions.size() - 1);

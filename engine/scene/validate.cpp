@@ -26,11 +26,23 @@ Result<void> checkSizes(const Mesh& mesh) {
                                                          {"tangents", mesh.tangents.size()},
                                                          {"uv0", mesh.uv0.size()},
                                                          {"uv1", mesh.uv1.size()},
-                                                         {"colors", mesh.colors.size()}};
+                                                         {"colors", mesh.colors.size()},
+                                                         {"joints", mesh.joints.size()},
+                                                         {"weights", mesh.weights.size()}};
+  const auto check = [&](std::string_view name, std::size_t size) -> Result<void> {
+    if (size == 0 || size == n) return {};
+    return fail(placeOf(mesh), fmt::format("{} has {} elements, positions has {}", name, size, n),
+                "leave the stream empty or give one element for each position");
+  };
   for (const auto& [name, size] : streams)
-    if (size != 0 && size != n)
-      return fail(placeOf(mesh), fmt::format("{} has {} elements, positions has {}", name, size, n),
-                  "leave the stream empty or give one element for each position");
+    if (auto good = check(name, size); !good) return good;
+  for (std::size_t t = 0; t < mesh.targets.size(); ++t)
+    for (const auto& [name, size] : {std::pair("positions", mesh.targets[t].positions.size()),
+                                     std::pair("normals", mesh.targets[t].normals.size()),
+                                     std::pair("tangents", mesh.targets[t].tangents.size())})
+      if (auto good = check(fmt::format("targets[{}].{}", t, name), size); !good) return good;
+  if (mesh.joints.size() != mesh.weights.size())
+    return fail(placeOf(mesh), "only one of joints and weights is given", "give both or neither");
   if (n > 0xfffffffeu)
     return fail(placeOf(mesh), fmt::format("positions has {} elements", n), "split the mesh: indices are 32 bits");
   if (mesh.indices.size() % 3 != 0)
@@ -50,15 +62,16 @@ glm::dvec3 areaNormal(const Mesh& mesh, const std::uint32_t* t) {
   return glm::cross(b - a, c - a);
 }
 
-/// Drops triangles with a non-finite corner or without area; puts the non-finite positions that are left over at the
-/// origin.
+/// Drops triangles with a non-finite corner or without area (unless something may give them one: joints, morph targets);
+/// puts the non-finite positions that are left over at the origin.
 void dropTriangles(Mesh& mesh, MeshFaults& faults) {
+  const bool moves = !mesh.joints.empty() || !mesh.targets.empty();
   std::size_t kept = 0;
   for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
     const std::uint32_t* t = &mesh.indices[i];
     if (!finite(mesh.positions[t[0]]) || !finite(mesh.positions[t[1]]) || !finite(mesh.positions[t[2]])) {
       ++faults.brokenTriangles;
-    } else if (areaNormal(mesh, t) == glm::dvec3(0)) {
+    } else if (!moves && areaNormal(mesh, t) == glm::dvec3(0)) {
       ++faults.flatTriangles;
     } else {
       std::copy_n(t, 3, mesh.indices.begin() + std::ptrdiff_t(kept));
@@ -87,6 +100,23 @@ void unweld(std::vector<V>& stream, const std::vector<std::uint32_t>& indices) {
   stream = std::move(out);
 }
 
+/// What a weight of 1 adds to flat normals: the face normal of the moved triangle less that of the resting one (exact at
+/// weights 0 and 1 of a single target).
+void morphFlatNormals(const Mesh& mesh, MorphTarget& target) {
+  target.tangents.clear();
+  target.normals.clear();
+  if (target.positions.empty()) return;
+  Mesh moved;
+  moved.positions = mesh.positions;
+  for (std::size_t i = 0; i < moved.positions.size(); ++i) moved.positions[i] += target.positions[i];
+  target.normals.resize(mesh.normals.size());
+  for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+    const glm::dvec3 n = areaNormal(moved, &mesh.indices[i]);
+    const double length = glm::length(n);
+    if (length > 0) target.normals[i] = target.normals[i + 1] = target.normals[i + 2] = glm::vec3(n / length) - mesh.normals[i];
+  }
+}
+
 /// Face normals: every corner becomes a vertex of its own (glTF 2.0, section 3.7.2.1: without normals, flat ones are
 /// calculated).
 void makeFlatNormals(Mesh& mesh) {
@@ -94,13 +124,19 @@ void makeFlatNormals(Mesh& mesh) {
   unweld(mesh.uv0, mesh.indices);
   unweld(mesh.uv1, mesh.indices);
   unweld(mesh.colors, mesh.indices);
+  unweld(mesh.joints, mesh.indices);
+  unweld(mesh.weights, mesh.indices);
+  for (MorphTarget& t : mesh.targets) unweld(t.positions, mesh.indices);
   mesh.tangents.clear();  // they belong to normals that the file does not have
   mesh.normals.resize(mesh.positions.size());
   for (std::uint32_t i = 0; i < mesh.indices.size(); ++i) mesh.indices[i] = i;
   for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
-    const glm::vec3 n(glm::normalize(areaNormal(mesh, &mesh.indices[i])));
+    const glm::dvec3 along = areaNormal(mesh, &mesh.indices[i]);
+    const double length = glm::length(along);
+    const glm::vec3 n = length > 0 ? glm::vec3(along / length) : glm::vec3(0, 1, 0);
     mesh.normals[i] = mesh.normals[i + 1] = mesh.normals[i + 2] = n;
   }
+  for (MorphTarget& t : mesh.targets) morphFlatNormals(mesh, t);
 }
 
 /// Unit length; zero and non-finite ones become the geometric normal, the area-weighted mean of the triangles around
@@ -139,6 +175,32 @@ void mendTangents(Mesh& mesh, MeshFaults& faults) {
   }
 }
 
+/// Weights that are finite, not negative and sum to 1; a vertex without any hangs on its first joint. Sums that are off by
+/// no more than what 8-bit weights round to are no fault.
+void mendWeights(Mesh& mesh, MeshFaults& faults) {
+  constexpr double kRounding = 4 * 0.5 / 255;
+  for (glm::vec4& w : mesh.weights) {
+    bool good = true;
+    for (int c = 0; c < 4; ++c)
+      if (!std::isfinite(w[c]) || w[c] < 0) good = false, w[c] = 0;
+    const double sum = double(w.x) + double(w.y) + double(w.z) + double(w.w);
+    if (sum > 0)
+      w = glm::vec4(glm::dvec4(w) / sum);
+    else
+      w = glm::vec4(1, 0, 0, 0);
+    if (!good || std::abs(sum - 1) > kRounding) ++faults.weights;
+  }
+}
+
+void mendTargets(Mesh& mesh, MeshFaults& faults) {
+  const auto isFinite = [](const glm::vec3& v) { return finite(v); };
+  for (MorphTarget& t : mesh.targets) {
+    mendStream(t.positions, glm::vec3(0), faults.deltas, isFinite);
+    mendStream(t.normals, glm::vec3(0), faults.deltas, isFinite);
+    mendStream(t.tangents, glm::vec3(0), faults.deltas, isFinite);
+  }
+}
+
 }  // namespace
 
 namespace scene {
@@ -150,6 +212,8 @@ MeshFaults& MeshFaults::operator+=(const MeshFaults& o) {
   colors += o.colors;
   normals += o.normals;
   tangents += o.tangents;
+  weights += o.weights;
+  deltas += o.deltas;
   return *this;
 }
 
@@ -160,7 +224,9 @@ void MeshFaults::report(const std::string& place, Report& report) const {
       {coordinates, "non-finite texture coordinates became 0"},
       {colors, "non-finite or negative vertex colours became white"},
       {normals, "zero or non-finite normals were replaced by geometric ones"},
-      {tangents, "zero or non-finite tangents were replaced by ones that follow no texture"}};
+      {tangents, "zero or non-finite tangents were replaced by ones that follow no texture"},
+      {weights, "vertices whose joint weights were negative, not finite or did not sum to 1 had them scaled"},
+      {deltas, "non-finite vectors of morph targets became 0"}};
   for (const auto& [count, what] : lines)
     if (count) report.warn(place, fmt::format("{} {}", count, what));
 }
@@ -173,6 +239,8 @@ Result<Mesh> validated(Mesh mesh, MeshFaults& faults) {
   mendStream(mesh.uv1, glm::vec2(0), faults.coordinates, finiteUv);
   mendStream(mesh.colors, glm::vec4(1), faults.colors,
              [](const glm::vec4& c) { return finite(c) && c.x >= 0 && c.y >= 0 && c.z >= 0 && c.w >= 0; });
+  mendWeights(mesh, faults);
+  mendTargets(mesh, faults);
   if (mesh.normals.empty())
     makeFlatNormals(mesh);
   else

@@ -1,4 +1,4 @@
-// The scene: plain tables of meshes, textures, materials, nodes, instances, lights and cameras. Everything that a file brings can be built and changed here.
+// The scene: plain tables of meshes, textures, materials, nodes, instances, lights, cameras, skins and animations. Everything that a file brings can be built and changed here.
 // Units: metres, seconds, lux (directional lights), candela (point and spot lights), candela per square metre (emission, environment). Right-handed, Y up.
 // Ownership: the scene owns everything by value. A Scene may be read by several renderers at once; changing it while one renders it is the caller's to prevent.
 #pragma once
@@ -91,6 +91,14 @@ struct Bounds {
   [[nodiscard]] bool empty() const { return !(min.x <= max.x && min.y <= max.y && min.z <= max.z); }
 };
 
+/// What a weight of 1 adds to a mesh's vertices. Streams are empty (nothing is added) or as long as the mesh's positions.
+struct MorphTarget {
+  std::string name;
+  std::vector<glm::vec3> positions;  ///< metres
+  std::vector<glm::vec3> normals;    ///< added to unit normals; the sum is made unit length again
+  std::vector<glm::vec3> tangents;   ///< added to the tangents' xyz
+};
+
 /// One indexed triangle list with one material slot. Streams are empty or as long as `positions`.
 struct Mesh {
   std::string name;
@@ -100,9 +108,14 @@ struct Mesh {
   std::vector<glm::vec2> uv0, uv1;
   std::vector<glm::vec4> colors;  ///< linear, multiplies albedo and opacity
   std::vector<std::uint32_t> indices;  ///< multiple of 3, each < positions.size()
+  // What moves its vertices; it shows on instances with a Skin (joints, weights) or with morph weights (targets).
+  std::vector<glm::u16vec4> joints;  ///< indices into Skin::joints, four a vertex
+  std::vector<glm::vec4> weights;    ///< of those joints, 0..1 with sum 1; empty exactly if `joints` is
+  std::vector<MorphTarget> targets;
 };
 
-/// Checks sizes and index ranges, replaces non-finite values, unit-normalises or makes normals, drops what cannot be drawn. Errors name the stream.
+/// Checks sizes and index ranges, replaces non-finite values, unit-normalises or makes normals, scales joint weights to sum 1, drops what cannot be drawn. Errors name the
+/// stream.
 BURNISH_API Result<Mesh> validated(Mesh mesh, Report& report);
 /// Fills `tangents` by the MikkTSpace rules (needs positions, normals, uv0); may split vertices.
 BURNISH_API void makeTangents(Mesh& mesh);
@@ -163,13 +176,63 @@ struct Node {
   Id<Node> parent;
   glm::dmat4 local{1};  ///< column vectors; any affine matrix, negative and singular ones included
 };
+/// The joints that meshes hang on. A vertex at v in the mesh's own space stands, in the world, at the sum over its joints of weight · world(joint) · inverseBind · v.
+struct Skin {
+  std::string name;
+  std::vector<Id<Node>> joints;         ///< at most 65535; a joint whose node is gone counts as the identity
+  std::vector<glm::mat4> inverseBind;   ///< mesh space to joint space in the bind pose, affine, one a joint; those that are missing or not finite are the identity
+};
+
 struct Instance {
   std::string name;
   Id<Node> node;
   Id<Mesh> mesh;
   Id<Material> material;
   bool visible = true;
+  Id<Skin> skin;                    ///< its joints place the vertices: the instance's own node then counts for nothing (glTF 2.0, section 3.7.3.3)
+  std::vector<float> morphWeights;  ///< of Mesh::targets in order, any finite number; those that are missing are 0
 };
+
+enum class Interpolation : std::uint8_t {
+  Step,         ///< the value of the key frame before
+  Linear,       ///< rotations: spherical, the shorter way round
+  CubicSpline,  ///< Hermite spline; a key frame holds in-tangent, value, out-tangent (glTF 2.0, appendix C.5)
+};
+/// Values over time. Before the first key frame its value holds, after the last one the last one's.
+struct Curve {
+  Interpolation interpolation = Interpolation::Linear;
+  std::vector<float> times;   ///< seconds, strictly growing, finite
+  std::vector<float> values;  ///< key frame by key frame: 3 (translation, scale), 4 (rotation: x, y, z, w) or as many numbers as there are morph weights; CubicSpline: three times as many
+};
+struct Animation {
+  /// A node's translation, rotation and scale. What has no curve (-1) keeps its rest value.
+  struct NodeTrack {
+    Id<Node> node;
+    glm::dvec3 restTranslation{0};            ///< metres
+    glm::dquat restRotation{1, 0, 0, 0};      ///< unit
+    glm::dvec3 restScale{1};
+    int translation = -1, rotation = -1, scale = -1;  ///< indices into `curves`
+  };
+  /// Instances' morph weights.
+  struct WeightTrack {
+    std::vector<Id<Instance>> instances;
+    int width = 0;   ///< weights a key frame
+    int curve = -1;  ///< index into `curves`
+  };
+  std::string name;
+  std::vector<Curve> curves;
+  std::vector<NodeTrack> nodes;
+  std::vector<WeightTrack> weights;
+
+  /// Seconds to the last key frame of all curves; 0 without any (every time is then 0).
+  [[nodiscard]] BURNISH_API double length() const;
+  /// `time` brought into 0 <= t < length(): the animation loops, negative times count back from its end, a time that is not finite is 0.
+  [[nodiscard]] BURNISH_API double looped(double time) const;
+};
+
+/// The curve at a time: `width` numbers into `out`, in double. `rotation`: width is 4 and the result a unit quaternion (x, y, z, w). False, and `out` untouched, where the curve is
+/// empty, its sizes disagree with `width` or the result is not finite.
+BURNISH_API bool evaluate(const Curve& curve, double time, int width, bool rotation, double* out);
 
 enum class LightKind : std::uint8_t { Directional, Point, Spot };
 /// A punctual light; shines along its node's -Z (KHR_lights_punctual).
@@ -231,6 +294,8 @@ struct Scene {
   Table<Instance> instances;
   Table<Light> lights;
   Table<Camera> cameras;
+  Table<Skin> skins;
+  Table<Animation> animations;
   Environment environment;
 
   /// Product of the locals from the root down. Cycles are cut (the API cannot make one unless told to).
@@ -238,6 +303,17 @@ struct Scene {
   /// Bounds of all visible instances in world space; empty without any.
   [[nodiscard]] BURNISH_API Bounds bounds() const;
 };
+
+/// Sets the locals of the animation's nodes and the morph weights of its instances to what they are at `time`, in seconds; each animation loops with its own length, so that
+/// `time` counts modulo Animation::length() (negative and non-finite times: see there). Computed in double. Only rows that change are edited. Tracks whose row is gone or whose
+/// curve cannot be evaluated (empty, sizes that disagree, a result that is not finite) leave it as it is.
+BURNISH_API void animate(Scene& scene, Id<Animation> animation, double time);
+/// The animations that play side by side: in order of the table each one that moves nothing that an earlier one moves.
+BURNISH_API std::vector<Id<Animation>> playedTogether(const Scene& scene);
+/// All that playedTogether() lists, at one time.
+BURNISH_API void animate(Scene& scene, double time);
+/// Checks the sizes of curves and the order of their times, and drops the tracks that use a faulty one, with one warning that counts them.
+BURNISH_API Animation validated(Animation animation, Report& report);
 
 /// How a file becomes a scene.
 struct LoadOptions {
