@@ -205,7 +205,61 @@ class Failures(Program):
         self.assertNotIn("\x1b", self.good("inspect", self.scene).stdout)
 
 
+def moving_scene_text(animations=({"name": "slide", "shift": 1.5},)):
+    """The triangle moves to the right within a second, by each animation's shift."""
+    scene = json.loads(scene_text())
+    data = b"".join(struct.pack("<8f", 0, 1, 0, 0, 0, a["shift"], 0, 0) for a in animations)
+    scene["buffers"].append({"byteLength": len(data), "uri": "data:application/octet-stream;base64," + base64.b64encode(data).decode()})
+    scene["animations"] = []
+    for i, animation in enumerate(animations):
+        for offset, length, kind, count in (32 * i, 8, "SCALAR", 2), (32 * i + 8, 24, "VEC3", 2):
+            scene["bufferViews"].append({"buffer": 1, "byteOffset": offset, "byteLength": length})
+            scene["accessors"].append({"bufferView": len(scene["bufferViews"]) - 1, "componentType": 5126, "count": count, "type": kind})
+        scene["accessors"][-2].update(min=[0], max=[1])
+        scene["animations"].append({"name": animation["name"],
+                                    "samplers": [{"input": len(scene["accessors"]) - 2, "output": len(scene["accessors"]) - 1}],
+                                    "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]})
+    return json.dumps(scene)
+
+
+class Time(Program):
+    def picture(self, *more):
+        result = self.good("render", self.scene, "--size", "64x48", "--view", "normal", "-o", self.out / "a.png", *more)
+        return (self.out / "a.png").read_bytes(), result.stderr
+
+    def test_time_moves_and_loops(self):
+        self.scene.write_text(moving_scene_text())
+        rest, moved = self.picture()[0], self.picture("--time", "0.5")[0]
+        self.assertEqual(rest, self.picture("--time", "0")[0])
+        self.assertNotEqual(rest, moved)
+        self.assertEqual(moved, self.picture("--time", "7.5")[0])
+        self.assertEqual(moved, self.picture("--time", "-0.5")[0])
+        self.assertIn("--time", self.good("plan", "--help").stdout)
+
+    def test_choice_of_animations(self):
+        self.scene.write_text(moving_scene_text([{"name": "slide", "shift": 1.5}, {"name": "jump", "shift": -1.5}]))
+        first, said = self.picture("--time", "0.5")
+        self.assertIn("not played", said)
+        self.assertIn("jump", said)
+        self.assertEqual(first, self.picture("--time", "0.5", "--animation", "slide")[0])
+        jump, said = self.picture("--time", "0.5", "--animation", "1")
+        self.assertNotEqual(first, jump)
+        self.assertNotIn("not played", said)
+        render = ["render", self.scene, "-o", self.out / "b.png"]
+        self.bad(1, *render, "--time", "1", "--animation", "slde", says=("slde", "did you mean 'slide'"))
+        self.bad(2, *render, "--animation", "slide", says="--time")
+        self.bad(2, *render, "--time", "soon", says="not a time")
+        self.scene.write_text(scene_text())
+        self.assertIn("no animations", self.picture("--time", "1")[1])
+
+
 class Inspect(Program):
+    def test_animations(self):
+        self.scene.write_text(moving_scene_text())
+        text = self.good("inspect", self.scene).stdout
+        for expected in "skins: 0", "meshes with morph targets: 0", "animations: 1", "slide: 1.000 s, 1 channels (1 translations,":
+            self.assertIn(expected, text)
+
     def test_scene(self):
         text = self.good("inspect", self.scene).stdout
         for expected in "meshes: 1 with 1 triangles", "lights: 1", "cameras: 2", "front", "gold-ish", "dielectric", "bounds: -1.000,-1.000,0.000 to 1.000,1.000,0.000", "warnings: ":

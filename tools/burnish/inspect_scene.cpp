@@ -105,6 +105,37 @@ void printCameras(const Scene& scene) {
   });
 }
 
+void printSkins(const Scene& scene) {
+  fmt::print("skins: {}\n", scene.skins.size());
+  scene.skins.each([&](Id<burnish::Skin> id, const burnish::Skin& skin) {
+    std::size_t users = 0;
+    scene.instances.each([&](Id<burnish::Instance>, const burnish::Instance& i) { users += i.skin == id; });
+    fmt::print("  {}: {} joints, on {} instances\n", nameOr(skin.name, "skin", id.index), skin.joints.size(), users);
+  });
+}
+
+void printMorphTargets(const Scene& scene) {
+  std::size_t meshes = 0;
+  scene.meshes.each([&](Id<burnish::Mesh>, const burnish::Mesh& m) { meshes += !m.targets.empty(); });
+  fmt::print("meshes with morph targets: {}\n", meshes);
+  scene.meshes.each([&](Id<burnish::Mesh> id, const burnish::Mesh& mesh) {
+    if (mesh.targets.empty()) return;
+    std::vector<std::string> names;
+    for (std::size_t t = 0; t < mesh.targets.size(); ++t) names.push_back(nameOr(mesh.targets[t].name, "target", std::uint32_t(t)));
+    fmt::print("  {}: {}\n", nameOr(mesh.name, "mesh", id.index), listed(names));
+  });
+}
+
+void printAnimations(const Scene& scene) {
+  fmt::print("animations: {}\n", scene.animations.size());
+  scene.animations.each([&](Id<burnish::Animation> id, const burnish::Animation& a) {
+    std::size_t translations = 0, rotations = 0, scales = 0;
+    for (const burnish::Animation::NodeTrack& t : a.nodes) translations += t.translation >= 0, rotations += t.rotation >= 0, scales += t.scale >= 0;
+    fmt::print("  {}: {:.3f} s, {} channels ({} translations, {} rotations, {} scales, {} of morph weights)\n", nameOr(a.name, "animation", id.index), a.length(),
+               translations + rotations + scales + a.weights.size(), translations, rotations, scales, a.weights.size());
+  });
+}
+
 void printEnvironment(const burnish::Environment& environment) {
   if (!environment.map.empty())
     fmt::print("environment: {}x{} lat-long, scale {:g}\n", environment.map.width, environment.map.height, environment.scale);
@@ -151,6 +182,9 @@ void printScene(const Scene& scene, const burnish::Report& report, const std::st
   printTextures(scene);
   printLights(scene);
   printCameras(scene);
+  printSkins(scene);
+  printMorphTargets(scene);
+  printAnimations(scene);
   printEnvironment(scene.environment);
   fmt::print("warnings: {}\n", report.warnings().size());
   for (const burnish::Warning& warning : report.warnings()) fmt::print("  {}\n", shown(warning.message()));

@@ -102,6 +102,45 @@ Result<std::size_t> findCamera(const Cameras& cameras, const std::string& wanted
               fmt::format("choose one of: {}, or an index below {}", listed(cameras.names), cameras.ids.size()));
 }
 
+struct Animations {
+  std::vector<burnish::Id<burnish::Animation>> ids;
+  std::vector<std::string> names;
+};
+Animations animationsOf(const burnish::Scene& scene) {
+  Animations all;
+  scene.animations.each([&](burnish::Id<burnish::Animation> id, const burnish::Animation& animation) {
+    all.ids.push_back(id);
+    all.names.push_back(animation.name);
+  });
+  return all;
+}
+
+/// Moves the scene to --time. What does not play is said.
+Result<void> playAnimations(LoadedScene& loaded, const SceneOptions& options) {
+  if (!options.time) return {};
+  const Animations all = animationsOf(loaded.scene);
+  if (!options.animation.empty()) {
+    std::optional<std::size_t> chosen;
+    for (std::size_t i = all.ids.size(); i-- > 0;)
+      if (all.names[i] == options.animation) chosen = i;
+    if (const auto index = parseNumber(options.animation); !chosen && index && *index == std::floor(*index) && *index >= 0 && *index < double(all.ids.size())) chosen = std::size_t(*index);
+    if (!chosen && all.ids.empty()) return fail(options.scene, fmt::format("has no animation '{}' (it has none at all)", options.animation), "leave --animation out");
+    if (!chosen)
+      return fail(options.scene, fmt::format("has no animation '{}'{}", options.animation, didYouMean(options.animation, all.names)),
+                  fmt::format("choose one of: {}, or an index below {}", listed(all.names), all.ids.size()));
+    burnish::animate(loaded.scene, all.ids[*chosen], *options.time);
+    return {};
+  }
+  if (all.ids.empty()) loaded.report.warn("--time", "the scene has no animations: it changes nothing");
+  const auto played = burnish::playedTogether(loaded.scene);
+  std::vector<std::string> idle;
+  for (std::size_t i = 0; i < all.ids.size(); ++i)
+    if (std::find(played.begin(), played.end(), all.ids[i]) == played.end()) idle.push_back(all.names[i].empty() ? std::to_string(i) : shown(all.names[i]));
+  if (!idle.empty()) loaded.report.warn("--time", fmt::format("not played, because an earlier animation moves the same things: {} (--animation picks one)", listed(idle)));
+  burnish::animate(loaded.scene, *options.time);
+  return {};
+}
+
 Result<void> chooseView(LoadedScene& loaded, const SceneOptions& options) {
   const Cameras cameras = camerasOf(loaded.scene);
   const float fov = float(options.fovDegrees.value_or(50) * M_PI / 180);
@@ -161,6 +200,8 @@ void SceneOptions::addTo(CLI::App& app, bool required) {
         return value && *value > 0 && *value < 180 ? value : std::nullopt;
       },
       "an angle above 0 and below 180 degrees");
+  CLI::Option* when = addParsed(app, "--time", "S", "plays the scene's animations to this time, seconds; each loops with its own length", time, parseNumber, "a time: give seconds");
+  app.add_option("--animation", animation, "with --time: this one alone; without: in the file's order each that moves nothing an earlier one moves")->type_name("NAME|INDEX")->needs(when);
   addParsed(app, "--size", "WxH", "pixels (1280x720)", size, parseSize, "a size: give WxH, each 1 to 16384, for example 1280x720");
   app.add_option("--env", environment, "a lat-long picture (.hdr, .exr) that lights the scene")->type_name("FILE");
   app.add_option_function<std::string>(
@@ -229,6 +270,7 @@ Result<LoadedScene> loadScene(const SceneOptions& options, Progress& progress) {
     progress.stage("loading " + options.environment);
     if (auto done = burnish::loadEnvironment(loaded.scene, options.environment, load, loaded.report); !done) return fail(done.error());
   }
+  if (auto done = playAnimations(loaded, options); !done) return fail(done.error());
   if (auto done = chooseView(loaded, options); !done) return fail(done.error());
   return loaded;
 }

@@ -20,6 +20,8 @@ struct SceneOptions {
   burnish::Quality development;                           ///< tone map and exposure
   burnish::Backend backend = burnish::Backend::Egl;
   int threads = 0;  ///< 0: as many as there are
+  std::optional<double> time;  ///< seconds; none: the pose that the file stores
+  std::string animation;       ///< name or index; empty: those that play side by side
 
   /// Adds SCENE and its options. Values are checked while parsing: what is no number, size or known name is a usage error.
   /// `required`: parsing fails without a SCENE.
