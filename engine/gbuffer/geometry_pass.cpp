@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <map>
+
 namespace burnish::gbuffer {
 namespace {
 
@@ -39,39 +41,57 @@ class RasterState {
   bool twoSided_ = false, flipped_ = false;
 };
 
-// Draws every visible instance that `wants`, with the pass's program for its variant; `before` runs once the instance is bound.
+// The pass's program of each variant: looked up once.
+class Programs {
+ public:
+  Programs(FrameContext& c, plan::GeometryPass pass, bool occlusionTarget)
+      : c_(c), pass_(pass), occlusionTarget_(occlusionTarget), lighting_{int(c.lights.directional.size()), c.plan.on("environment_lighting"), c.plan.on("baked_occlusion"), c.view.orthographic} {}
+  Result<const gl::Program*> of(const plan::GeometryVariant& v) {
+    const gl::Program*& program = found_[v];
+    if (program) return program;
+    const std::string name = pass_ == plan::GeometryPass::Forward ? plan::forwardProgram(v, c_.quality, lighting_).name : plan::geometryProgram(pass_, v, occlusionTarget_).name;
+    program = c_.programs.find(name);
+    if (!program) return fail("frame plan", fmt::format("program '{}' is not in it", name), "report this as a fault of the engine");
+    return program;
+  }
+
+ private:
+  FrameContext& c_;
+  plan::GeometryPass pass_;
+  bool occlusionTarget_;
+  plan::LightingVariant lighting_;
+  std::map<plan::GeometryVariant, const gl::Program*> found_;
+};
+
+// Draws every batch that `wants`, with the pass's program for its variant; `before` runs once it is bound.
 template <class Wants, class Before>
 Result<void> drawInstances(FrameContext& c, plan::GeometryPass pass, bool occlusionTarget, Wants&& wants, Before&& before) {
-  const plan::LightingVariant lighting{int(c.lights.directional.size()), c.plan.on("environment_lighting"), c.plan.on("baked_occlusion"), c.view.orthographic};
   const GladGLContext& gl = c.device.gl;
   RasterState raster(gl);
+  Programs programs(c, pass, occlusionTarget);
   const gl::Program* used = nullptr;
   gpu_scene::BoundInstance bound;
-  const gl::VertexArray* array = nullptr;
-  // At most sixteen variants: looked up once each.
-  std::array<const gl::Program*, 16> programs{};
-  for (std::size_t i = 0; i < c.visible.size(); ++i) {
-    const scene::VisibleInstance& v = c.visible[i];
+  const bool counted = pass == plan::GeometryPass::GBuffer || pass == plan::GeometryPass::Forward;
+  for (const scene::Batch& batch : c.batches) {
+    const scene::VisibleInstance& v = c.visible[batch.first];
     const Material& material = materialOf(c, v);
     if (!wants(material)) continue;
     plan::GeometryVariant variant = plan::variantOf(material, *v.mesh);
+    variant.instanced = batch.count > 1;
     if (!occlusionTarget) variant.occlusionMap = variant.packed = false;
-    const std::size_t key = std::size_t(variant.general) + 2 * std::size_t(variant.alphaTest) + 4 * std::size_t(variant.occlusionMap) + 8 * std::size_t(variant.packed);
-    if (!programs[key]) {
-      const std::string name = pass == plan::GeometryPass::Forward ? plan::forwardProgram(variant, c.quality, lighting).name : plan::geometryProgram(pass, variant, occlusionTarget).name;
-      programs[key] = c.programs.find(name);
-      if (!programs[key]) return fail("frame plan", fmt::format("program '{}' is not in it", name), "report this as a fault of the engine");
-    }
-    if (!gpu_scene::bindInstance(c, i, variant.general, bound)) continue;
-    if (programs[key] != used) (used = programs[key])->use();
-    if (const gl::VertexArray* wanted = variant.general ? &c.buffers.general : &c.buffers.plain; wanted != array) (array = wanted)->bind();
+    auto program = programs.of(variant);
+    if (!program) return fail(program.error());
+    if (!(variant.instanced ? gpu_scene::bindInstances(c, batch, variant.general, bound) : gpu_scene::bindInstance(c, batch.first, variant.general, bound))) continue;
+    if (*program != used) (used = *program)->use();
     raster.set(material.twoSided, v.flipped);
     before(material);
-    gl.DrawElements(GL_TRIANGLES, bound.mesh->indexCount, bound.mesh->indexType, nullptr);
-    if (pass == plan::GeometryPass::GBuffer || pass == plan::GeometryPass::Forward) {
-      ++c.stats.draws;
-      c.stats.triangles += std::uint64_t(bound.mesh->indexCount) / 3;
-    }
+    if (variant.instanced)
+      gl.DrawElementsInstanced(GL_TRIANGLES, bound.mesh->indexCount, bound.mesh->indexType, nullptr, GLsizei(batch.count));
+    else
+      gl.DrawElements(GL_TRIANGLES, bound.mesh->indexCount, bound.mesh->indexType, nullptr);
+    if (!counted) continue;
+    ++c.stats.draws;
+    c.stats.triangles += std::uint64_t(bound.mesh->indexCount) / 3 * batch.count;
   }
   return {};
 }

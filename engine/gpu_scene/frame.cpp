@@ -85,15 +85,6 @@ Result<FrameBuffers> FrameBuffers::create(gl::Device& device) {
   if (!draws) return fail(draws.error());
   b.frame = std::move(*frame);
   b.draws = std::move(*draws);
-  const gl::VertexAttribute plain[] = {{ATTRIBUTE_POSITION, 3, GL_FLOAT, false, false, 0, 0},
-                                       {ATTRIBUTE_NORMAL, 4, GL_SHORT, true, false, 12, 0},
-                                       {ATTRIBUTE_TANGENT, 4, GL_SHORT, true, false, 20, 0},
-                                       {ATTRIBUTE_UV0, 2, GL_FLOAT, false, false, 28, 0}};
-  std::vector<gl::VertexAttribute> general(std::begin(plain), std::end(plain));
-  general.push_back({ATTRIBUTE_UV1, 2, GL_FLOAT, false, false, 0, 1});
-  general.push_back({ATTRIBUTE_COLOR, 4, GL_UNSIGNED_SHORT, true, false, 8, 1});
-  b.plain = gl::VertexArray::create(device, plain, {}, 0, "vertices");
-  b.general = gl::VertexArray::create(device, general, {}, 0, "vertices, general");
   b.none = gl::VertexArray::create(device, {}, {}, 0, "no vertices");
   return b;
 }
@@ -168,33 +159,72 @@ Result<void> uploadDraws(FrameContext& c) {
       d.model[r] = v.model[r];
       d.normal[r] = vec4(v.normal[r], 0);
     }
-    d.ids = {int(v.id.index) + 1, v.mesh->colors.empty() ? 0 : 1, 0, 0};
+    d.normal[0].w = float(v.id.index + 1);
+    d.normal[1].w = v.mesh->colors.empty() ? 0 : 1;
     std::memcpy(bytes.data() + i * c.buffers.drawStride, &d, sizeof d);
   }
   return c.buffers.draws.write(bytes);
 }
 
-bool bindInstance(FrameContext& c, std::size_t i, bool general, BoundInstance& bound) {
+gl::VertexArray FrameBuffers::makeArray(gl::Device& device, bool general, bool instanced) {
+  std::vector<gl::VertexAttribute> attributes = {{ATTRIBUTE_POSITION, 3, GL_FLOAT, false, false, 0, 0},
+                                                 {ATTRIBUTE_NORMAL, 4, GL_SHORT, true, false, 12, 0},
+                                                 {ATTRIBUTE_TANGENT, 4, GL_SHORT, true, false, 20, 0},
+                                                 {ATTRIBUTE_UV0, 2, GL_FLOAT, false, false, 28, 0}};
+  if (general) {
+    attributes.push_back({ATTRIBUTE_UV1, 2, GL_FLOAT, false, false, 0, 1});
+    attributes.push_back({ATTRIBUTE_COLOR, 4, GL_UNSIGNED_SHORT, true, false, 8, 1});
+  }
+  if (instanced)
+    for (GLuint k = 0; k < DRAW_VECTORS; ++k) attributes.push_back({ATTRIBUTE_DRAW + k, 4, GL_FLOAT, false, false, 16 * k, kDrawBinding});
+  return gl::VertexArray::create(device, attributes, {}, 0, fmt::format("vertices{}{}", general ? ", general" : "", instanced ? ", instanced" : ""));
+}
+
+const gl::VertexArray& FrameBuffers::array(gl::Device& device, bool general, bool instanced) {
+  gl::VertexArray& a = arrays[general][instanced];
+  if (!a) a = makeArray(device, general, instanced);
+  return a;
+}
+
+namespace {
+
+bool bindMesh(FrameContext& c, std::size_t i, bool general, bool instanced, BoundInstance& bound) {
   const scene::VisibleInstance& v = c.visible[i];
   const Material* material = c.scene.materials.get(v.instance->material);
   const GpuMesh* mesh = c.gpuScene.mesh(c.scene, v.instance->mesh, material && (material->mapB || material->anisotropy > 0), c.report);
   if (!mesh) return false;
   const GladGLContext& gl = c.device.gl;
-  if (mesh != bound.mesh || general != bound.general) {
-    const GLuint array = (general ? c.buffers.general : c.buffers.plain).id();
+  const gl::VertexArray* wanted = &c.buffers.array(c.device, general, instanced);
+  if (wanted != bound.array) wanted->bind();
+  if (mesh != bound.mesh || wanted != bound.array) {
+    const GLuint array = wanted->id();
     gl.VertexArrayVertexBuffer(array, 0, mesh->vertices.id(), 0, GpuMesh::kStride);
     // A mesh without extras in a general program: its vertices stand in; DrawData says that there is no colour, and uv set 1 is not asked for.
     if (general) gl.VertexArrayVertexBuffer(array, 1, mesh->extras ? mesh->extras.id() : mesh->vertices.id(), 0, mesh->extras ? GpuMesh::kExtraStride : GpuMesh::kStride);
     gl.VertexArrayElementBuffer(array, mesh->indices.id());
   }
-  c.buffers.draws.bindRange(GL_UNIFORM_BUFFER, BINDING_DRAW, i * c.buffers.drawStride, sizeof(DrawData));
   const MaterialBinding& m = c.gpuScene.material(c.scene, v.instance->material, c.report);
   if (&m != bound.material) {
     c.gpuScene.materials().bindRange(GL_UNIFORM_BUFFER, BINDING_MATERIAL, m.offset, sizeof(MaterialData));
     gl.BindTextures(0, 5, m.texture.data());
     gl.BindSamplers(0, 5, m.sampler.data());
   }
-  bound = {mesh, &m, general};
+  bound = {mesh, &m, wanted};
+  return true;
+}
+
+}  // namespace
+
+bool bindInstance(FrameContext& c, std::size_t i, bool general, BoundInstance& bound) {
+  if (!bindMesh(c, i, general, false, bound)) return false;
+  c.buffers.draws.bindRange(GL_UNIFORM_BUFFER, BINDING_DRAW, i * c.buffers.drawStride, sizeof(DrawData));
+  return true;
+}
+
+bool bindInstances(FrameContext& c, scene::Batch batch, bool general, BoundInstance& bound) {
+  if (!bindMesh(c, batch.first, general, true, bound)) return false;
+  c.device.gl.VertexArrayVertexBuffer(bound.array->id(), kDrawBinding, c.buffers.draws.id(), GLintptr(batch.first * c.buffers.drawStride), GLsizei(c.buffers.drawStride));
+  c.device.gl.VertexArrayBindingDivisor(bound.array->id(), kDrawBinding, 1);
   return true;
 }
 

@@ -57,10 +57,18 @@ gl::ProgramSource sourceOf(const ProgramPlan& plan);
 /// Buffers that each view fills anew.
 struct FrameBuffers {
   gl::Buffer frame, draws;
-  gl::VertexArray plain, general, none;
+  gl::VertexArray none;
   std::size_t drawStride = 256;
   static Result<FrameBuffers> create(gl::Device& device);
+  /// Vertex formats of the geometry programs, made when first asked for.
+  const gl::VertexArray& array(gl::Device& device, bool general, bool instanced);
+
+ private:
+  static gl::VertexArray makeArray(gl::Device& device, bool general, bool instanced);
+  gl::VertexArray arrays[2][2];
 };
+/// The vertex binding that holds DrawData in instanced programs.
+inline constexpr GLuint kDrawBinding = 2;
 
 struct FrameContext {
   gl::Device& device;
@@ -73,6 +81,7 @@ struct FrameContext {
   const Quality& quality;
   const scene::ViewFrame& view;
   const std::vector<scene::VisibleInstance>& visible;
+  std::span<const scene::Batch> batches;  ///< of `visible`; what is drawn by one call each
   const scene::LightSet& lights;
   const GpuEnvironment* environment = nullptr;
   glm::ivec2 size{0};      ///< of the target
@@ -90,14 +99,16 @@ struct FrameContext {
 Result<void> uploadFrameData(FrameContext& context, float displayExposure);
 /// Transforms of every visible instance into buffers.draws, in order.
 Result<void> uploadDraws(FrameContext& context);
-/// Binds geometry and uniform ranges of visible instance i; false when its mesh is not there (yet). `general`: the program reads the second vertex buffer.
+/// Binds the vertex array, geometry and uniform ranges of visible instance i; false when its mesh is not there (yet). `general`: the program reads the second vertex buffer.
 /// `bound` remembers what the last call bound, so that nothing is bound twice in a row (each binding makes a software renderer prepare its state anew);
 /// start each pass with an empty one.
 struct BoundInstance {
   const GpuMesh* mesh = nullptr;
   const MaterialBinding* material = nullptr;
-  bool general = false;
+  const gl::VertexArray* array = nullptr;
 };
 bool bindInstance(FrameContext& context, std::size_t i, bool general, BoundInstance& bound);
+/// The same for a batch that an instanced program draws.
+bool bindInstances(FrameContext& context, scene::Batch batch, bool general, BoundInstance& bound);
 
 }  // namespace burnish::gpu_scene

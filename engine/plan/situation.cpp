@@ -11,11 +11,12 @@ namespace {
 
 std::string named(std::string_view kind, const std::string& name) { return name.empty() ? fmt::format("an unnamed {}", kind) : fmt::format("{} '{}'", kind, name); }
 
-void addInstance(const Scene& scene, const scene::VisibleInstance& seen, const Quality& quality, Facts& facts) {
+void addBatch(const Scene& scene, const scene::VisibleInstance& seen, bool instanced, const Quality& quality, Facts& facts) {
   static const Material kDefault;
   const Material* found = scene.materials.get(seen.instance->material);
   const Material& material = found ? *found : kDefault;
   GeometryVariant variant = variantOf(material, *seen.mesh);
+  variant.instanced = instanced;
   if (quality.occlusion == Occlusion::None) variant.occlusionMap = variant.packed = false;
   facts.call(Call::Geometry, "instance", seen.instance->name, "");
   if (material.twoSided) facts.call(Call::TwoSided, "material", material.name, " is two-sided");
@@ -51,12 +52,14 @@ void addEnvironment(const Environment& e, Facts& facts) {
 void look(const Scene& scene, const scene::Derived& derived, const View& view, glm::ivec2 targetSize, const Quality& quality, Report& report, Seen& out) {
   out.frame = scene::frameOf(view, targetSize);
   scene::findVisible(scene, derived, out.frame, out.instances);
+  out.batches = scene::batch(out.instances);
   out.lights = scene::gatherLights(scene, derived, out.frame, quality, report);
 }
 
 void lookEverywhere(const Scene& scene, const scene::Derived& derived, const View& view, glm::ivec2 targetSize, const Quality& quality, Report& report, Seen& out) {
   out.frame = scene::frameOf(view, targetSize);
   scene::findVisible(scene, derived, out.frame, out.instances, scene::Reach::Everywhere);
+  out.batches = scene::batch(out.instances);
   out.lights = scene::gatherLights(scene, derived, out.frame, quality, report, scene::Reach::Everywhere);
 }
 
@@ -67,14 +70,8 @@ void Facts::call(Call call, std::string_view kind, const std::string& name, std:
 
 Facts factsOf(const Scene& scene, std::span<const Seen> views, const Quality& quality) {
   Facts facts;
-  // Many instances share mesh and material: the same pair in a row adds nothing.
   for (const Seen& view : views) {
-    const scene::VisibleInstance* last = nullptr;
-    for (const scene::VisibleInstance& v : view.instances) {
-      if (last && last->mesh == v.mesh && last->instance->material == v.instance->material) continue;
-      addInstance(scene, v, quality, facts);
-      last = &v;
-    }
+    for (const scene::Batch& b : view.batches) addBatch(scene, view.instances[b.first], b.count > 1, quality, facts);
     addLights(scene, view.lights, facts);
   }
   addEnvironment(scene.environment, facts);

@@ -13,7 +13,8 @@ namespace burnish::plan {
 /// One view and what it sees.
 struct Seen {
   scene::ViewFrame frame;
-  std::vector<scene::VisibleInstance> instances;  ///< nearest first
+  std::vector<scene::VisibleInstance> instances;  ///< nearest first, batches brought together
+  std::vector<scene::Batch> batches;              ///< of `instances`
   scene::LightSet lights;
 };
 /// What a view sees. `lights` is filled too; what is mended goes into the report.

@@ -29,9 +29,10 @@ ProgramPlan geometryProgram(GeometryPass pass, GeometryVariant variant, bool occ
   p.name = pass == GeometryPass::GBuffer ? "gbuffer" : pass == GeometryPass::Emissive ? "emissive" : "pick";
   p.vertex = "gbuffer/gbuffer.vert";
   p.fragment = "gbuffer/" + p.name + ".frag";
-  p.defines = {define("ALPHA_TEST", variant.alphaTest), define("GENERAL", variant.general)};
+  p.defines = {define("ALPHA_TEST", variant.alphaTest), define("GENERAL", variant.general), define("INSTANCED", variant.instanced)};
   if (variant.general) p.name += "+general";
   if (variant.alphaTest) p.name += "+alpha";
+  if (variant.instanced) p.name += "+instanced";
   if (pass == GeometryPass::GBuffer) {
     p.defines.push_back(define("OCCLUSION", !occlusionTarget ? 0 : !variant.occlusionMap ? 2 : variant.packed ? 3 : 1));
     if (occlusionTarget) p.name += !variant.occlusionMap ? "+unoccluded" : variant.packed ? "+ao" : "+ao_map";

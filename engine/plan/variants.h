@@ -8,6 +8,7 @@ struct GeometryVariant {
   bool general = false;    ///< second uv set, uv transforms, vertex colour or metal-rough kept apart
   bool alphaTest = false;
   bool occlusionMap = false;
+  bool instanced = false;  ///< many at once: DrawData comes as vertex attributes
   bool packed = false;     ///< with occlusionMap: it rides in map B's third channel (gpu_scene), so that two lookups do
   friend auto operator<=>(const GeometryVariant&, const GeometryVariant&) = default;
 };

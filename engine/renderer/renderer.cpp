@@ -138,7 +138,7 @@ Result<void> Renderer::Impl::renderView(SceneState& state, const Scene& scene, c
     environment = *found;
   }
   FrameContext c{.device = *device, .plan = plan, .programs = *programSet, .targets = *targets, .gpuScene = state.gpu, .buffers = buffers, .scene = scene, .quality = quality, .view = view.frame,
-                 .visible = view.instances, .lights = view.lights, .environment = environment, .size = target.size, .report = report, .stats = stats};
+                 .visible = view.instances, .batches = view.batches, .lights = view.lights, .environment = environment, .size = target.size, .report = report, .stats = stats};
   const float display = quality.exposureEv ? exposureOf(*quality.exposureEv) : 1;
   if (request.output == Output::Display) c.preExposure = quality.exposureEv ? display : guessedExposure(view.lights, environment, scene.environment.scale);
   if (auto done = gpu_scene::uploadFrameData(c, display); !done) return done;
@@ -248,10 +248,11 @@ Result<Id<Instance>> Renderer::pick(const Scene& scene, const View& view, glm::i
   plan::Seen seen;
   seen.frame = scene::narrowed(whole, local);
   scene::findVisible(scene, state.derived, seen.frame, seen.instances);
+  const std::vector<scene::Batch> batches = scene::singles(seen.instances);  // the programs that draw ids draw one at a time
   const Quality quality;
   FrameStats stats;
   FrameContext c{.device = *m.device, .plan = plan, .programs = programs, .targets = targets, .gpuScene = state.gpu, .buffers = m.buffers, .scene = scene, .quality = quality, .view = seen.frame,
-                 .visible = seen.instances, .lights = seen.lights, .size = {1, 1}, .report = m.report, .stats = stats};
+                 .visible = seen.instances, .batches = batches, .lights = seen.lights, .size = {1, 1}, .report = m.report, .stats = stats};
   if (auto done = gpu_scene::uploadFrameData(c, 1); !done) return fail(done.error());
   if (auto done = gpu_scene::uploadDraws(c); !done) return fail(done.error());
   auto framebuffer = targets.framebuffer({"pick"}, "pick_depth");

@@ -68,6 +68,17 @@ struct VisibleInstance {
 /// Instances whose bounds meet the frustum, sorted by distance. Non-finite transforms are left out.
 void findVisible(const Scene& scene, const Derived& derived, const ViewFrame& frame, std::vector<VisibleInstance>& out, Reach reach = Reach::InView);
 
+/// Visible instances in a row that one call can draw: the same mesh and material, mirrored or not alike.
+struct Batch {
+  std::uint32_t first = 0, count = 1;
+};
+/// Batches are made from so many instances on: fewer are drawn one by one, in order of their distance. (Measured: docs/benchmarks.md.)
+inline constexpr std::uint32_t kInstancedFrom = 8;
+/// Brings the instances of each batch together, at the place of the nearest one. Every instance is in exactly one batch.
+std::vector<Batch> batch(std::vector<VisibleInstance>& instances);
+/// A batch for each instance.
+std::vector<Batch> singles(const std::vector<VisibleInstance>& instances);
+
 struct DirectionalLight {
   Id<Light> id;
   glm::vec3 toLight{0, 1, 0};

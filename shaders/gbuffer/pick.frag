@@ -15,5 +15,5 @@ void main() {
 #endif
   if (opacity < material.emission.w) discard;
 #endif
-  outInstance = uint(draw.ids.x);
+  outInstance = uint(draw.normal[0].w);
 }

@@ -32,6 +32,8 @@
 #define ATTRIBUTE_UV0 3
 #define ATTRIBUTE_UV1 4
 #define ATTRIBUTE_COLOR 5
+#define ATTRIBUTE_DRAW 6  // instanced programs: the ten vectors of DrawData, clip's columns first
+#define DRAW_VECTORS 10
 
 #include "interface/limits.h"
 
@@ -54,8 +56,7 @@ struct FrameData {
 struct DrawData {
   mat4 clip;         // object to clip space: one product a vertex
   vec4 model[3];    // rows: object to camera-relative world; tangents go through it
-  vec4 normal[3];   // rows of the cofactor matrix times the sign of the determinant; xyz
-  ivec4 ids;        // x instance index + 1, y 1 when the mesh has vertex colours
+  vec4 normal[3];   // rows of the cofactor matrix times the sign of the determinant; w of the first: instance index + 1 (exact up to 2^24), of the second: 1 when the mesh has colours
 };
 
 struct MaterialData {
