@@ -77,6 +77,7 @@ struct Renderer::Impl {
   Report report;
   std::size_t reported = 0;
   std::optional<Quality> reportedQuality;
+  std::vector<bool> loggedEffects;
   std::vector<plan::Seen> seen;  // of each view
 
   SceneState& stateOf(const Scene& scene) {
@@ -87,6 +88,16 @@ struct Renderer::Impl {
   void logNewWarnings() {
     for (; reported < report.warnings().size(); ++reported)
       if (options.log) options.log(LogLevel::Warning, report.warnings()[reported].message());
+  }
+  /// Every effect that went on or off since the last frame, with its reason.
+  void logEffects() {
+    if (!options.log) return;
+    loggedEffects.resize(plan.effects.size());
+    for (std::size_t i = 0; i < plan.effects.size(); ++i) {
+      const EffectPlan& e = plan.effects[i];
+      if (e.on != loggedEffects[i]) options.log(LogLevel::Info, fmt::format("effect '{}' {}: {}", e.name, e.on ? "on" : "off", e.reason));
+      loggedEffects[i] = e.on;
+    }
   }
   /// Says once what the quality asks for and does not get as asked.
   void reportQuality(const Quality& quality) {
@@ -206,6 +217,7 @@ Result<FrameStats> Renderer::render(const Scene& scene, std::span<const View> vi
   if (m.plan.on("forward_reference") && target.depthIn)
     return fail("target", "it brings depth, which the forward reference path cannot take in", "leave depthIn empty, or use path=deferred and rungs that are not forward-only");
   m.reportQuality(quality);
+  m.logEffects();
   FrameStats stats;
   Result<void> done = m.programSet->prepare(m.plan);
   if (done) done = m.targets->prepare(m.plan);

@@ -96,6 +96,25 @@ TEST_CASE("every pass and target of a plan has an effect that calls for it, and 
   }
 }
 
+TEST_CASE("the log says which effects went on and off, once, and why") {
+  std::vector<std::string> lines;
+  RendererOptions options;
+  options.log = [&](LogLevel level, std::string_view text) {
+    if (level == LogLevel::Info) lines.emplace_back(text);
+  };
+  Stage stage(options);
+  Workshop w;
+  stage.display(w.scene, w.view, {32, 32}, {});
+  CHECK(lists(lines, "effect 'tone_mapping' on: tone map 'neutral'"));
+  lines.clear();
+  stage.display(w.scene, w.view, {32, 32}, {});
+  CHECK(lines.empty());
+  w.scene.materials.edit(w.material)->name = "lamp";
+  w.scene.materials.edit(w.material)->emission = vec3(1);
+  stage.display(w.scene, w.view, {32, 32}, {});
+  CHECK(lines == std::vector<std::string>{"effect 'emissive' on: material 'lamp' emits"});
+}
+
 TEST_CASE("bytes of target formats agree with OpenGL's table") {
   int known = 0;
   for (const gl::FormatInfo& f : gl::formats())

@@ -19,7 +19,7 @@ BURNISH = ""
 SUBCOMMANDS = ["render", "plan", "inspect", "doctor", "stability"]
 SANITIZED = os.environ.get("BURNISH_SANITIZED") == "1"
 RENDER_KEYS = ["schema_version", "backend", "renderer", "size", "frames", "timing_mode", "frame_ms", "frame_cpu_ms", "passes", "effects", "programs",
-               "gbuffer_bytes_per_pixel", "texture_bytes", "nonfinite_pixels", "gl_errors", "warnings", "rungs"]
+               "plan", "gbuffer_bytes_per_pixel", "texture_bytes", "nonfinite_pixels", "gl_errors", "warnings", "rungs"]
 PLAN_KEYS = ["schema_version", "effects", "passes", "programs", "targets"]
 
 
@@ -313,13 +313,15 @@ class Plan(Program):
         self.assertEqual(list(plan), PLAN_KEYS)
         self.assertEqual(plan["schema_version"], 1)
         for effect in plan["effects"]:
-            self.assertEqual(list(effect), ["name", "on", "called_by", "reason"])
+            self.assertEqual(list(effect), ["name", "on", "called_by", "reason", "passes", "programs", "targets", "bytes"])
+            self.assertEqual(bool(effect["passes"] or effect["targets"]) and not effect["on"], False)
             self.assertIn(effect["called_by"], ("scene", "setting"))
             self.assertTrue(effect["reason"], effect)
         self.assertTrue(any(effect["on"] for effect in plan["effects"]))
         self.assertTrue(any(not effect["on"] for effect in plan["effects"]))
         for one in plan["passes"]:
-            self.assertEqual(list(one), ["name", "reads", "writes"])
+            self.assertEqual(list(one), ["name", "reads", "writes", "effects", "programs"])
+            self.assertTrue(one["effects"], one)
         for target in plan["targets"]:
             self.assertEqual(list(target), ["name", "format", "bytes"])
         self.assertTrue(plan["passes"] and plan["programs"] and plan["targets"])
@@ -380,6 +382,11 @@ class Render(Program):
                 self.assertEqual(list(report[key]), ["median", "p95"])
                 self.assertGreater(report[key]["p95"], 0)
             self.assertTrue(report["passes"] and report["effects"] and report["programs"])
+            rows = report["plan"]["effects"]
+            self.assertEqual([e["name"] for e in rows if e["on"]], report["effects"])
+            geometry = next(e for e in rows if e["name"] == "geometry")
+            self.assertEqual(geometry["passes"], ["gbuffer"])
+            self.assertEqual(geometry["gpu_ms"], next(p for p in report["passes"] if p["name"] == "gbuffer")["gpu_ms"]["median"])
             self.assertGreater(report["texture_bytes"], 64 * 48 * 8)
             for one in report["passes"]:
                 self.assertEqual(list(one), ["name", "gpu_ms", "cpu_ms"])

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "messages.h"
+#include "plan_text.h"
 
 namespace cli {
 namespace {
@@ -75,6 +76,16 @@ void RenderReport::warnAboutCounts() {
   for (const std::string& text : glErrors_) warnings.push_back("OpenGL: " + text);
 }
 
+RenderReport::EffectTime RenderReport::timeOf(const std::vector<std::string>& passes) const {
+  EffectTime time;
+  for (const Pass& p : passes_) {
+    if (std::find(passes.begin(), passes.end(), p.name) == passes.end()) continue;
+    time.gpuMs += spreadOf(p.gpuMs).median;
+    time.cpuMs += spreadOf(p.cpuMs).median;
+  }
+  return time;
+}
+
 Json RenderReport::toJson() const {
   Json out;
   out["schema_version"] = 1;
@@ -93,6 +104,12 @@ Json RenderReport::toJson() const {
     if (effect.on) out["effects"].push_back(effect.name);
   out["programs"] = Json::array();
   for (const burnish::ProgramPlan& program : plan.programs) out["programs"].push_back(program.name);
+  out["plan"] = planJson(plan);
+  for (Json& effect : out["plan"]["effects"]) {
+    const EffectTime time = timeOf(effect["passes"].get<std::vector<std::string>>());
+    effect["gpu_ms"] = time.gpuMs;
+    effect["cpu_ms"] = time.cpuMs;
+  }
   out["gbuffer_bytes_per_pixel"] = plan.gbufferBytesPerPixel;
   out["texture_bytes"] = textureBytes_;
   out["nonfinite_pixels"] = nonfinitePixels_;
@@ -116,6 +133,9 @@ void RenderReport::print() const {
     const Spread gpuMs = spreadOf(p.gpuMs), cpuMs = spreadOf(p.cpuMs);
     fmt::print("  {:<20} {:>10} {:>10} {:>10} {:>10}\n", p.name, shownMs(gpuMs.median), shownMs(gpuMs.p95), shownMs(cpuMs.median), shownMs(cpuMs.p95));
   }
+  fmt::print("effects that are on ({} are off; 'burnish plan' says why)\n", std::count_if(plan.effects.begin(), plan.effects.end(), [](const auto& e) { return !e.on; }));
+  for (const burnish::EffectPlan& e : plan.effects)
+    if (e.on) fmt::print("  {:<20} {:>10} {}{}\n", e.name, e.passes.empty() ? "" : shownMs(timeOf(e.passes).gpuMs), e.reason, costOf(e));
 }
 
 }  // namespace cli

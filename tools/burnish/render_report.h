@@ -51,6 +51,11 @@ struct RenderReport {
     std::vector<double> gpuMs, cpuMs;
   };
   Pass& pass(const std::string& name);
+  struct EffectTime {
+    double gpuMs = 0, cpuMs = 0;
+  };
+  /// Sum of these passes' medians.
+  [[nodiscard]] EffectTime timeOf(const std::vector<std::string>& passes) const;
 
   std::vector<double> frameMs_, frameCpuMs_;
   std::vector<Pass> passes_;  ///< in order of execution

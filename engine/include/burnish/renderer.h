@@ -20,7 +20,7 @@ struct RendererOptions {
   std::vector<std::string> removedEffects;   ///< PlanOptions::removed of every frame
   std::vector<std::string> forcedEffects;    ///< PlanOptions::forced of every frame
   bool debugOutput = false;                  ///< collect GL debug messages as errors (needs a debug context to be complete)
-  LogSink log;
+  LogSink log;                               ///< warnings; Info: each effect that goes on or off, with its reason
 };
 
 class BURNISH_API Renderer {
