@@ -110,11 +110,17 @@ def _rle_row(row):
     return out
 
 
-def hdr_bytes(rgb):
-    """A Radiance .hdr file of linear RGB, new-style run-length coded."""
+def hdr_bytes(rgb, packed=True):
+    """A Radiance .hdr file of linear RGB, new-style run-length coded. packed=False spends no time on looking for runs, of
+    which stars and other noise have none; the width must then be a multiple of 128."""
     h, w, _ = rgb.shape
     pixels = rgbe_encode(rgb)
     out = bytearray(b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y %d +X %d\n" % (h, w))
+    if not packed:
+        rows = pixels.transpose(0, 2, 1).reshape(h, 4 * w // 128, 128)
+        rows = np.concatenate([np.full((h, 4 * w // 128, 1), 128, np.uint8), rows], 2).reshape(h, -1)
+        start = np.tile(np.array([2, 2, w >> 8, w & 255], np.uint8), (h, 1))
+        return bytes(out) + np.concatenate([start, rows], 1).tobytes()
     for y in range(h):
         out += bytes((2, 2, w >> 8, w & 255))
         for c in range(4):
@@ -536,6 +542,13 @@ def quaternion(axis, degrees):
     return [x, y, z, math.cos(a)]
 
 
+def quaternion_product(a, b):
+    """The rotation b followed by a."""
+    (ax, ay, az, aw), (bx, by, bz, bw) = a, b
+    return [aw * bx + ax * bw + ay * bz - az * by, aw * by - ax * bz + ay * bw + az * bx,
+            aw * bz + ax * by - ay * bx + az * bw, aw * bw - ax * bx - ay * by - az * bz]
+
+
 def aim(direction):
     """The rotation that turns -Z to a direction and keeps +Y as near up as it can."""
     f = unit(np.asarray(direction, float))
@@ -572,6 +585,7 @@ class Gltf:
         self.views, self.accessors, self.meshes, self.materials = [], [], [], []
         self.images, self.textures, self.nodes, self.cameras, self.lights = [], [], [], [], []
         self.files, self.used, self.triangles, self._attributes = {}, set(), {}, {}
+        self.animations = {}
 
     # -- textures and materials
     def texture(self, name, image):
@@ -586,8 +600,8 @@ class Gltf:
         """Add a Surface's maps; returns texture indices by kind."""
         return {kind: self.texture("%s_%s" % (name, kind), image) for kind, image in surf.maps().items()}
 
-    def material(self, name, maps=None, base=(1, 1, 1), rough=1.0, metal=None, emit=None, nits=0.0, two_sided=False):
-        """Add a material; with maps, factors multiply them."""
+    def material(self, name, maps=None, base=(1, 1, 1), rough=1.0, metal=None, emit=None, nits=0.0, two_sided=False, substance=None):
+        """Add a material; with maps, factors multiply them. substance: a name of the engine's library."""
         maps = maps or {}
         pbr = {"baseColorFactor": list(base) + [1.0], "roughnessFactor": rough,
                "metallicFactor": (1.0 if maps else 0.0) if metal is None else metal}
@@ -603,8 +617,12 @@ class Gltf:
             out["emissiveFactor"] = list(emit)
             out["extensions"] = {"KHR_materials_emissive_strength": {"emissiveStrength": nits}}
             self.used.add("KHR_materials_emissive_strength")
+        if "emit" in maps:
+            out["emissiveTexture"] = {"index": maps["emit"]}
         if two_sided:
             out["doubleSided"] = True
+        if substance:
+            out["extras"] = {"burnish": {"substance": substance}}
         self.materials.append(out)
         return len(self.materials) - 1
 
@@ -612,7 +630,9 @@ class Gltf:
     def _accessor(self, a, component, kind, target, bounds=False):
         self.blob += bytes(-len(self.blob) % 4)
         a = np.ascontiguousarray(a, COMPONENT_TYPES[component])
-        self.views.append({"buffer": 0, "byteOffset": len(self.blob), "byteLength": a.nbytes, "target": target})
+        self.views.append({"buffer": 0, "byteOffset": len(self.blob), "byteLength": a.nbytes})
+        if target is not None:
+            self.views[-1]["target"] = target
         self.blob += a.tobytes()
         out = {"bufferView": len(self.views) - 1, "componentType": component, "count": len(a), "type": kind}
         if component == U8:
@@ -648,8 +668,8 @@ class Gltf:
         return len(self.meshes) - 1
 
     # -- nodes
-    def node(self, name, at=(0, 0, 0), turn=None, scale=None, **rest):
-        """Add a node to the scene; turn is degrees about Y or a quaternion."""
+    def node(self, name, at=(0, 0, 0), turn=None, scale=None, parent=None, **rest):
+        """Add a node to the scene, or under a parent; turn is degrees about Y or a quaternion."""
         out = {"name": name, "translation": list(at)}
         if turn is not None:
             out["rotation"] = quaternion((0, 1, 0), turn) if np.isscalar(turn) else list(turn)
@@ -657,25 +677,45 @@ class Gltf:
             out["scale"] = [scale] * 3 if np.isscalar(scale) else list(scale)
         out.update(rest)
         self.nodes.append(out)
+        if parent is not None:
+            self.nodes[parent].setdefault("children", []).append(len(self.nodes) - 1)
         return len(self.nodes) - 1
 
-    def camera(self, name, eye, target, fov, near=0.05, far=200.0):
-        """Add a perspective camera with a vertical field of view in degrees."""
+    def camera(self, name, eye, target, fov, near=0.05, far=200.0, parent=None):
+        """Add a perspective camera with a vertical field of view in degrees; far None: infinite."""
         self.cameras.append({"name": name, "type": "perspective",
-                             "perspective": {"yfov": math.radians(fov), "znear": near, "zfar": far}})
-        self.node(name, eye, aim(np.subtract(target, eye)), camera=len(self.cameras) - 1)
+                             "perspective": {"yfov": math.radians(fov), "znear": near}})
+        if far is not None:
+            self.cameras[-1]["perspective"]["zfar"] = far
+        self.node(name, eye, aim(np.subtract(target, eye)), parent=parent, camera=len(self.cameras) - 1)
 
-    def light(self, name, kind, at=(0, 0, 0), toward=None, colour=(1, 1, 1), intensity=1.0, reach=None, cone=None):
-        """Add a punctual light; cone is (inner, outer) half angles in degrees."""
+    def light(self, name, kind, at=(0, 0, 0), toward=None, colour=(1, 1, 1), intensity=1.0, reach=None, cone=None, shadow=False, parent=None):
+        """Add a punctual light; cone is (inner, outer) half angles in degrees; shadow: it asks to cast shadows."""
         out = {"name": name, "type": kind, "color": list(colour), "intensity": intensity}
         if reach:
             out["range"] = reach
         if cone:
             out["spot"] = {"innerConeAngle": math.radians(cone[0]), "outerConeAngle": math.radians(cone[1])}
+        if shadow:
+            out["extras"] = {"burnish": {"shadow": True}}
         self.lights.append(out)
         self.used.add("KHR_lights_punctual")
         turn = None if toward is None else aim(toward)
-        self.node(name, at, turn, extensions={"KHR_lights_punctual": {"light": len(self.lights) - 1}})
+        self.node(name, at, turn, parent=parent, extensions={"KHR_lights_punctual": {"light": len(self.lights) - 1}})
+
+    def animate(self, name, node, path, times, values):
+        """Add a linear channel to the animation of that name; path is translation, rotation or scale."""
+        keys = np.asarray(times, float).reshape(-1, 1)
+        out = self.animations.setdefault(name, {"name": name, "channels": [], "samplers": []})
+        out["samplers"].append({"input": self._accessor(keys, FLOAT, "SCALAR", None, True), "interpolation": "LINEAR",
+                                "output": self._accessor(np.round(values, 6), FLOAT, "VEC4" if path == "rotation" else "VEC3", None)})
+        out["channels"].append({"sampler": len(out["samplers"]) - 1, "target": {"node": node, "path": path}})
+
+    def spin(self, name, node, axis, seconds, turns=1, start=(0, 0, 0, 1)):
+        """A steady rotation about a local axis that comes round after `seconds`, from the rest rotation on."""
+        steps = np.arange(4 * abs(turns) + 1)
+        values = [quaternion_product(start, quaternion(axis, 90.0 * k * np.sign(turns))) for k in steps]
+        self.animate(name, node, "rotation", steps * seconds / steps[-1], values)
 
     # -- output
     def document(self, bin_uri, extras):
@@ -685,7 +725,8 @@ class Gltf:
             out["extensionsUsed"] = sorted(self.used)
         if self.lights:
             out["extensions"] = {"KHR_lights_punctual": {"lights": self.lights}}
-        scene = {"name": "scene", "nodes": list(range(len(self.nodes)))}
+        children = {c for n in self.nodes for c in n.get("children", ())}
+        scene = {"name": "scene", "nodes": [k for k in range(len(self.nodes)) if k not in children]}
         if extras:
             scene["extras"] = {"burnish": extras}
         out.update(scene=0, scenes=[scene], nodes=self.nodes)
@@ -695,6 +736,8 @@ class Gltf:
         if self.textures:
             out["samplers"] = [{"magFilter": 9729, "minFilter": 9987, "wrapS": 10497, "wrapT": 10497}]
             out.update(textures=self.textures, images=self.images)
+        if self.animations:
+            out["animations"] = list(self.animations.values())
         out.update(bufferViews=self.views, buffers=[{"uri": bin_uri, "byteLength": len(self.blob)}])
         out = _tidy(out)
         out["accessors"] = self.accessors       # bounds must be the exact floats
@@ -716,7 +759,7 @@ class Gltf:
         return {"triangles": sum(self.triangles[m] for m in drawn),
                 "draws": sum(len(self.meshes[m]["primitives"]) for m in drawn),
                 "nodes": len(self.nodes), "meshes": len(self.meshes), "materials": len(self.materials),
-                "textures": len(self.textures), "lights": len(self.lights), "cameras": len(self.cameras),
+                "textures": len(self.textures), "lights": len(self.lights), "animated": sum(len(a["channels"]) for a in self.animations.values()), "cameras": len(self.cameras),
                 "bin_bytes": len(self.blob), "texture_bytes": sum(map(len, self.files.values()))}
 
 
