@@ -900,13 +900,13 @@ def sun_direction():
 
 
 def build_lights(g):
-    """Candela throughout. There is no directional light: without shadows it would pass the walls.
+    """Candela throughout. There is no directional light: without shadows it would pass the walls. Four spots ask for shadows.
 
     The sun is a narrow spot far out in the yard whose cone just fills the doorway."""
     for k, (x, y, z) in enumerate(LAMPS):
-        g.light("lamp_%d" % k, "spot", (x, y + 0.02, z), (0, -1, 0), WARM, 1100.0, 5.5, (16, 43))
+        g.light("lamp_%d" % k, "spot", (x, y + 0.02, z), (0, -1, 0), WARM, 1100.0, 5.5, (16, 43), shadow=k > 0)
     to_sun, door = sun_direction(), np.array([4.15, 1.35, -2.0])
-    g.light("sun_shaft", "spot", door + 16.0 * to_sun, -to_sun, SUN_COLOUR, 330000.0, 30.0, (2.7, 3.7))
+    g.light("sun_shaft", "spot", door + 16.0 * to_sun, -to_sun, SUN_COLOUR, 330000.0, 30.0, (2.7, 3.7), shadow=True)
     g.light("sun_yard", "spot", (23.0, 9.0, -9.0), (-10.0, -9.0, 4.0), SUN_COLOUR, 24000.0, 19.0, (28, 40))
     g.light("sky_door", "point", (4.6, 2.2, -2.0), None, (0.75, 0.86, 1.0), 90.0, 5.0)
     at = np.array(ARMILLARY_SPOT)
