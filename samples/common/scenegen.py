@@ -588,12 +588,12 @@ class Gltf:
         self.animations = {}
 
     # -- textures and materials
-    def texture(self, name, image):
-        """Add an image as textures/NAME.png; returns the texture's index."""
+    def texture(self, name, image, clamp=False):
+        """Add an image as textures/NAME.png; returns the texture's index. clamp: it ends at its edges, else it repeats."""
         uri = "textures/%s.png" % name
         self.files[uri] = png_bytes(image)
         self.images.append({"name": name, "uri": uri, "mimeType": "image/png"})
-        self.textures.append({"name": name, "source": len(self.images) - 1, "sampler": 0})
+        self.textures.append({"name": name, "source": len(self.images) - 1, "sampler": int(clamp)})
         return len(self.textures) - 1
 
     def surface(self, name, surf):
@@ -734,7 +734,8 @@ class Gltf:
             out["cameras"] = self.cameras
         out.update(meshes=self.meshes, materials=self.materials)
         if self.textures:
-            out["samplers"] = [{"magFilter": 9729, "minFilter": 9987, "wrapS": 10497, "wrapT": 10497}]
+            wraps = (10497, 33071)[:1 + max(t["sampler"] for t in self.textures)]
+            out["samplers"] = [{"magFilter": 9729, "minFilter": 9987, "wrapS": w, "wrapT": w} for w in wraps]
             out.update(textures=self.textures, images=self.images)
         if self.animations:
             out["animations"] = list(self.animations.values())

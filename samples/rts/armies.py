@@ -23,7 +23,7 @@ def squad(f, faction, x, z, turn, rows=3, columns=4, gap=1.9, heavy_row=0):
         for c in range(columns):
             px, pz = f.local(x, z, turn, (c - (columns - 1) / 2) * gap, -(r - (rows - 1) / 2) * gap)
             px, pz = px + 0.25 * (f.rng.random() - 0.5), pz + 0.25 * (f.rng.random() - 0.5)
-            if f.ground.at("river", px, pz) < 12.0 or not f.free(px, pz, 0.5):
+            if f.ground.at("river", px, pz) < 12.0 or f.ground.at("road", px, pz) < 3.4 or not f.free(px, pz, 0.5):
                 continue
             kind = "heavy_" if r == rows - 1 - heavy_row else "soldier_"
             f.put(kind + faction, px, pz, turn + 8 * (f.rng.random() - 0.5), 0.55, shade=0.4)
@@ -40,15 +40,15 @@ def deploy(f):
     for t in (-7.5, 1.6):                                               # two tanks on the bridge itself
         vehicle(f, "tank_blue", BRIDGE[0] + ACROSS[0] * t, BRIDGE[1] + ACROSS[1] * t, BRIDGE_TURN, y=DECK)
     back = [p[::-1] for p in (ROADS["main"],)][0]
-    for k, (x, z, turn) in enumerate(along(back, 13.0, 8.4, 3)):
-        vehicle(f, ("truck_red", "tank_red", "tank_red")[k], x, z, turn)
+    for k, (x, z, turn) in enumerate(along(back, 9.0, 8.6, 4)):
+        vehicle(f, ("truck_red", "tank_red", "tank_red", "tank_red")[k], x, z, turn)
     normal = np.array([-ACROSS[1], ACROSS[0]])                          # along the river, to the right of blue's advance
     face = bearing(*ACROSS)
     for faction, sign in (("blue", -1), ("red", 1)):
         turn = face if sign < 0 else face + 180
         for s in (-30, -22, 13, 21, 31, 40):
             p = np.array(BRIDGE) + sign * 21.0 * ACROSS + s * normal
-            if f.ground.at("river", *p) > 15.0 and f.free(p[0], p[1], 3.4):
+            if f.ground.at("river", *p) > 15.0 and f.ground.at("road", *p) > 4.5 and f.free(p[0], p[1], 3.4):
                 vehicle(f, ("tank_" if s % 2 else "artillery_") + faction, p[0], p[1], turn + 6 * (f.rng.random() - 0.5))
         for s, rows, columns in ((-38, 3, 4), (-13, 3, 3), (-26, 3, 5), (9, 2, 4), (26, 3, 5), (36, 3, 4)):
             p = np.array(BRIDGE) + sign * (28.5 if s in (-26, 26) else 16.5) * ACROSS + s * normal
@@ -56,7 +56,7 @@ def deploy(f):
     for faction, (cx, cz), turn in (("blue", BLUE, face), ("red", RED, face + 180)):
         for dx, dz, kind in ((-6, 14, "truck_"), (-1.5, 14, "truck_"), (3, 14, "tank_"), (8, 13, "tank_"), (14, -2, "artillery_"), (14, 4, "tank_")):
             px, pz = f.local(cx, cz, turn, dx, dz)
-            if f.free(px, pz, 3.2):
+            if f.free(px, pz, 3.2) and f.ground.at("road", px, pz) > 3.6:
                 vehicle(f, kind + faction, px, pz, turn, lit=kind != "artillery_")
         for dx, dz in ((-17, 9), (-19, 1), (18, 12), (0, 22), (-9, 22), (10, 21)):
             px, pz = f.local(cx, cz, turn, dx, dz)

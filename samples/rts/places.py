@@ -12,8 +12,8 @@ def blue_base(f):
     turn = bearing(*ACROSS) - 8
     place = lambda kind, dx, dz, half, extra=0.0: (f.local(cx, cz, turn, dx, dz), f.building(kind, *f.local(cx, cz, turn, dx, dz), turn + extra, half))
     place("blue_hq", 0, -8, (9, 8))
-    place("blue_barracks", -17, -3, (4.8, 6.8))
-    place("blue_barracks", -17, -18.5, (4.8, 6.8))
+    place("blue_barracks", -15.5, -20, (4.8, 6.8))
+    place("blue_barracks", -27, -18, (4.8, 6.8))
     place("blue_factory", 19, -12, (7.8, 6.3), -14)
     place("blue_power", 3, -24, (6.8, 4.0))
     (px, pz), y = place("landing_pad", -13, 12.5, (7, 7))
@@ -34,7 +34,7 @@ def blue_base(f):
         f.light("wall_light", (x, y + 3.2, z), COOL)
     for dx, dz in ((-6, 1.5), (6, 1.5), (-9, -8), (9.8, -6), (0, 12), (11, -20), (-10, -21), (-23, 4), (25, -3), (21, 10), (-6, 19), (7, 19)):
         lamp(f, "blue", *f.local(cx, cz, turn, dx, dz), turn + 90)
-    for dx, dz in ((-3.4, -0.2), (3.4, -0.2), (19, -4.6), (14.6, -5.4), (-14.4, 4.6), (-19.4, 4.6)):
+    for dx, dz in ((-3.4, -0.2), (3.4, -0.2), (19, -4.6), (14.6, -5.4), (-15.5, -11.8), (-27, -9.8)):
         x, z = f.local(cx, cz, turn, dx, dz)
         f.light("door_light", (x, f.height(x, z) + 2.4, z), COOL)
     stores(f, f.local(cx, cz, turn, 10, 8.5), 9)
@@ -44,7 +44,7 @@ def blue_base(f):
 def red_base(f):
     """Around RED, on its hill."""
     cx, cz = RED
-    turn = bearing(*-ACROSS) + 10
+    turn = bearing(-32.5, 25.3)            # its gate looks down the road to the bridge
     place = lambda kind, dx, dz, half, extra=0.0: (f.local(cx, cz, turn, dx, dz), f.building(kind, *f.local(cx, cz, turn, dx, dz), turn + extra, half))
     place("red_keep", 0, -8, (8.6, 8.6))
     place("red_longhouse", -18, -4, (4.8, 7))
@@ -70,7 +70,7 @@ def red_base(f):
         f.light("door_fire", (x, f.height(x, z) + 2.2, z), FIRE)
     stores(f, f.local(cx, cz, turn, 9, 9), 9)
     for k in range(4):
-        x, z = f.local(cx, cz, turn, -4 + 5.2 * k, 18.0)
+        x, z = f.local(cx, cz, turn, 6.5 + 4.6 * k, 17.0 - 1.5 * (k % 2))
         if f.free(x, z, 2.2):
             f.put("tent_red", x, z, turn + 10 * k, 2.0)
             lantern(f, *f.local(x, z, turn + 10 * k, 1.3, 2.5), 0.0)

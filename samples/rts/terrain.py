@@ -14,11 +14,11 @@ BLUE, RED, VILLAGE, MINE = (-44.0, 24.0), (44.0, -40.0), (-66.0, -34.0), (58.0, 
 BRIDGE = (1.0, -4.0)
 ACROSS = np.array([0.70, -0.714])    # unit, over the bridge from blue to red
 ROADS = {
-    "main": [(-44, 24), (-30, 19), (-18, 12), (-9.5, 6.7), (11.5, -14.7), (20, -24), (31, -31), (44, -34)],
+    "main": [(-44, 24), (-30, 19), (-18, 12), (-9.5, 6.7), (11.5, -14.7), (17.5, -19.4), (24.3, -24.6), (34, -32), (43, -37)],
     "west": [(-44, 24), (-58, 8), (-66, -12), (-62, -30), (-84, -40), (-120, -36), (-170, -50), (-255, -40)],
     "south": [(-44, 24), (-36, 42), (-14, 50), (10, 56), (24, 74), (26, 110), (8, 170), (0, 255)],
-    "east": [(20, -24), (36, -14), (54, 6), (66, 20), (100, 26), (150, 40), (255, 60)],
-    "north": [(44, -34), (40, -56), (22, -72), (14, -104), (20, -170), (30, -255)],
+    "east": [(17.5, -19.4), (35, -13), (54, 6), (66, 20), (100, 26), (150, 40), (255, 60)],
+    "north": [(17.5, -19.4), (10.5, -36), (11, -56), (19, -78), (14, -104), (20, -170), (30, -255)],
 }
 
 
@@ -69,14 +69,14 @@ class Ground:
         edge = smooth(88, 190, away + 50 * (self.broad - 0.5))
         land = land + edge * (8.0 + 60.0 * (self.broad - 0.28).clip(0, 1)) + 2.5 * edge * self.fine
         ridge = lambda cx, cz, r, top: top * np.exp(-((x - cx) ** 2 + (z - cz) ** 2) / (r * r))
-        land = land + ridge(-92, 4, 20, 7) + ridge(86, -84, 26, 12) + ridge(76, -4, 12, 4) + ridge(-16, -74, 20, 6)
+        land = land + ridge(-96, 4, 24, 5) + ridge(86, -84, 26, 12) + ridge(76, -4, 12, 4) + ridge(-16, -74, 20, 6)
         for (cx, cz), radius, top in ((BLUE, 30, 3.2), (RED, 29, 6.0), (VILLAGE, 14, 3.2), (MINE, 9, 2.6)):
             d = np.hypot(x - cx, z - cz) + 6 * (self.fine - 0.5)
             land = land + (top - land) * smooth(radius + 8, radius, d)
         # roads are cut level with what they pass, at the height of the bridge's deck near it
         near = np.hypot(x - BRIDGE[0], z - BRIDGE[1])
         land = land + (2.75 - land) * smooth(26, 15, near) * smooth(7.0, 3.0, self.road)
-        valley = smooth(6.0, 14.5, self.river)
+        valley = smooth(5.5, 15.0 + 14.0 * edge, self.river)
         return (land.clip(0.9, None)) * valley - 2.6 * (1 - smooth(4.0, 9.5, self.river))
 
     def at(self, field, x, z):
@@ -201,17 +201,18 @@ def water_mesh():
     return m
 
 
-def water_colour(ground, factor=2):
+def water_colour(ground, factor=4):
     """Deep to shallow, with a foam line along the banks."""
     height = enlarge(ground.height, factor)
     n = Noise(303, CELLS)
     ripple = enlarge(n.fbm(24, octaves=3), factor)
     d = height + 0.5 * (ripple - 0.5)
-    mix = lambda a, b, t: a + (b - a) * t[..., None]
-    out = np.zeros(height.shape + (3,)) + colour("#0e4f78")
+    shore = (height / enlarge(np.maximum(ground.slope, 0.2), factor) + 1.6 * (ripple - 0.5)).astype(np.float32)   # metres from the bank, roughly
+    mix = lambda a, b, t: a + (np.asarray(b, np.float32) - a) * t[..., None].astype(np.float32)
+    out = np.zeros(height.shape + (3,), np.float32) + colour("#0e4f78").astype(np.float32)
     out = mix(out, colour("#1878a0"), smooth(-2.5, -1.6, d))
     out = mix(out, colour("#3fb4bd"), smooth(-1.7, -0.5, d))
-    foam = np.maximum(smooth(-0.36, -0.24, d), 0.5 * smooth(0.10, 0.03, np.abs(d + 0.85)))
+    foam = np.maximum(smooth(-1.1, -0.75, shore), 0.5 * smooth(0.30, 0.12, np.abs(shore + 2.1)))
     return mix(out, colour("#eaf6f2"), foam)
 
 

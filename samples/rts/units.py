@@ -19,7 +19,7 @@ def soldier(faction, heavy=False):
     parts.append((block((0.78, 0.16, 0.56), (0, 0.92, 0)), f["dark"]))
     parts.append((block((0.62, 0.62, 0.3), (0, 1.05, -0.4), 0.9), f["hull"]))
     parts.append((ball(0.29, (0, 1.93, 0.02), 8, 5), "#e0ab82"))
-    helmet = sg.lathe([[(0.43, -0.05), (0.40, 0.04), (0.27, 0.25), (0.0, 0.36)]], 8).moved(0, 2.0, 0)
+    helmet = sg.lathe([[(0.40, -0.06), (0.35, 0.06), (0.25, 0.27), (0.0, 0.36)]], 8).moved(0, 2.0, 0)
     parts.append((helmet, f["main"]))
     for s, reach in ((-1, 0.46), (1, 0.34)):
         parts.append((pipe((0.52 * s, 1.55, 0.0), (0.42 * s, 1.2, 0.18), 0.13, 5), f["main"]))
@@ -132,4 +132,5 @@ def flag(faction):
     cloth = sg.patch(wave, 6, 1, 1, 1)
     back = sg.patch(lambda u, v: wave(1 - u, v) + np.array([0, 0, -0.02]), 6, 1, 1, 1)
     band = sg.patch(lambda u, v: wave(u, 0.38 + 0.24 * v) + np.array([0, 0, 0.012]), 6, 1, 1, 1)
-    return {"flat": grounded(sg.merge(tint(pole, STEEL), tint(cloth, f["main"]), tint(back, f["main"]), tint(band, f["trim"])))}
+    behind = sg.patch(lambda u, v: wave(1 - u, 0.38 + 0.24 * v) + np.array([0, 0, -0.032]), 6, 1, 1, 1)
+    return {"flat": grounded(sg.merge(tint(pole, STEEL), tint(cloth, f["main"]), tint(back, f["main"]), tint(band, f["trim"]), tint(behind, f["trim"])))}

@@ -97,18 +97,19 @@ class Cap:
 
 # ---------------------------------------------------------------- asteroids
 
-def asteroid(seed, segments=24, rings=14, craters=6):
-    """A lumpy body of radius about 1."""
+def asteroid(seed, segments=24, rings=14, craters=6, lumps=1.0):
+    """A body of radius about 1, the rounder the less `lumps` is."""
     rng = np.random.Generator(np.random.PCG64(seed))
     m = sg.sphere(1.0, segments, rings, 1.0)
     d = m.p
     noise = Lattice(seed)
-    lift = 1.0 + 0.75 * (noise.fbm(d * 1.1 + 5, 2) - 0.5) + 0.28 * (noise.fbm(d * 3.1 + 9, 3) - 0.5)
+    lift = 1.0 + lumps * (0.75 * (noise.fbm(d * 1.1 + 5, 2) - 0.5) + 0.28 * (noise.fbm(d * 3.1 + 9, 3) - 0.5))
     for _ in range(craters):
-        c, r = sg.unit(rng.normal(size=3)), 0.18 + 0.3 * rng.random()
+        c, r = sg.unit(rng.normal(size=3)), (0.18 + 0.3 * rng.random()) * (0.4 + 0.6 * lumps)
         t = np.arccos(np.clip(d @ c, -1, 1)) / r
-        lift = lift - 0.42 * r * smooth(1.0, 0.25, t) + 0.10 * r * np.exp(-((t - 1.05) / 0.22) ** 2)
-    p = np.round(d * lift[:, None] * (1.0, 0.78 + 0.2 * rng.random(), 0.85 + 0.2 * rng.random()), 6)
+        lift = lift - (0.10 + 0.32 * lumps) * r * smooth(1.0, 0.25, t) + 0.10 * r * np.exp(-((t - 1.05) / 0.22) ** 2)
+    stretch = 1.0 + lumps * np.array((0.0, -0.22 + 0.2 * rng.random(), -0.15 + 0.2 * rng.random()))
+    p = np.round(d * lift[:, None] * stretch, 6)
     return smoothed(sg.Mesh(p, m.n, m.t, m.uv, m.i), segments)
 
 
@@ -170,21 +171,21 @@ def planet_maps(pole, size=1536):
     colour = blend(ocean, ground, land)
     ice = smooth(0.84, 0.90, np.abs(lat) + 0.35 * (rise - 0.5) + 0.08 * (fine - 0.5))
     colour = blend(colour, (0.82, 0.87, 0.92), ice)
-    cover = clouds(cap, d, lat)
-    colour = blend(colour, (0.88, 0.90, 0.92), cover)
+    cover, depth = clouds(cap, d, lat)
+    colour = blend(colour, blend((0.50, 0.55, 0.62), (0.92, 0.93, 0.94), depth), cover)
     facing = np.clip((d[..., 2] - 0.46) / 0.54, 0.0, 1.0)       # 0 at the limb as the sector sees it
     air = 0.05 + 0.62 * (1 - facing) ** 4
     colour = blend(colour, (0.20, 0.44, 0.90), np.clip(air, 0, 0.7))
-    rough = (0.46 * (1 - land) + 0.9 * land) * (1 - cover) + 0.95 * cover
-    height = 0.030 * (rise * land + 0.524 * (1 - land)) * (1 - cover) + 0.012 * cover
+    rough = (0.38 * (1 - land) + 0.9 * land) * (1 - cover) + 0.95 * cover
+    height = 0.016 * (rise * land + 0.524 * (1 - land)) * (1 - cover) + 0.0022 * cover * (0.4 + 0.6 * depth)
     town = smooth(0.54, 0.68, cap.fbm(780, 22.0, 3, 0.7)) * smooth(0.45, 0.60, cap.fbm(790, 5.0, 3)) * land * (1 - ice) * (1 - smooth(0.60, 0.66, rise))
-    spots = smooth(0.50, 0.85, cap.fbm(800, 110.0, 1))
-    lights = (town * (0.15 + 0.85 * spots) * (1 - 0.85 * cover))[..., None] * np.array((1.0, 0.62, 0.26))
+    spots = smooth(0.56, 0.80, cap.fbm(800, 150.0, 2, 0.8)) ** 1.5
+    lights = (town * (0.06 + 0.94 * spots) * (1 - 0.85 * cover))[..., None] * np.array((1.0, 0.62, 0.26))
     return {"base": sg.to_srgb(colour), "normal": sg.to_u8(sg.normal_map(height, 2.0) * 0.5 + 0.5), "orm": sg.to_u8(stack(1.0, rough, 0.0)), "emit": sg.to_srgb(lights)}
 
 
 def clouds(cap, d, lat):
-    """Share of the ground that clouds hide: streets bent by winds, fronts, and a few storms that spiral."""
+    """Share of the ground that clouds hide, and how thick they are: streets bent by winds, fronts, a few storms that spiral."""
     p = d.astype(np.float64)
     rng = np.random.Generator(np.random.PCG64(745))
     for x, y, sign in ((-0.52, 0.30, 1), (0.10, 0.42, 1), (-0.20, -0.36, -1), (0.42, -0.10, -1), (-0.05, 0.05, 1)):
@@ -199,9 +200,11 @@ def clouds(cap, d, lat):
     sheet = cap.fbm(740, 3.2, 7, 0.58, swirl)
     belts = 0.035 * np.cos(11.0 * np.arcsin(np.clip(lat, -1, 1)))
     fine = cap.fbm(760, 14.0, 4, 0.62, swirl)
-    thick = smooth(0.535, 0.66, sheet + belts + 0.10 * (fine - 0.5))
+    grain = cap.fbm(770, 44.0, 3, 0.7)
+    thick = smooth(0.535, 0.66, sheet + belts + 0.16 * (fine - 0.5) + 0.10 * (grain - 0.5))
     thin = 0.45 * smooth(0.52, 0.70, fine) * smooth(0.44, 0.56, sheet)
-    return np.clip(thick + thin * (1 - thick), 0, 1)
+    depth = smooth(0.50, 0.72, sheet + 0.30 * (fine - 0.5) + 0.22 * (grain - 0.5))
+    return np.clip(thick + thin * (1 - thick), 0, 1), depth
 
 
 def limb(distance, to_sun_local, segments=256, rings=10):

@@ -126,7 +126,7 @@ def cruiser():
     out.append(("windows", block((12.6, 2.0, 9.6), (0, 30.2, -46), 0.985, 16.0)))
     out.append(("hull_orange", block((14.5, 1.2, 11.0), (0, 34.3, -46), 0.97, PANEL)))
     for x, h in ((-4, 12), (4, 9), (0, 15)):
-        out.append(("metal", pipe((x, 35, -49), (x, 35 + h, -50), 0.22, 5)))
+        out.append(("metal", pipe((x, 35, -49), (x, 35 + h, -50), 0.36, 5)))
     out.append(("hull_grey", drum(12, 2.6, 1.4, 2.0, (-7.5, 28, -52), 0.5, PANEL)))
     # tanks at the waist
     for k in range(6):

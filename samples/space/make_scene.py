@@ -35,7 +35,7 @@ from solids import block, drum, pipe  # noqa: E402
 EV100 = 12.2                    # the exposure this scene is lit for
 SECTOR = np.array([1.0e6, 2.4e5, -6.5e5])
 PLANET_WAY, PLANET_FAR, PLANET_RADIUS = sg.unit(np.array([0.50, -0.40, -1.0])), 1.35e6, 6.2e5
-TO_SUN = sg.unit(np.array([-0.82, 0.44, 0.26]))
+TO_SUN = sg.unit(np.array([0.56, 0.42, 0.71]))
 SUN_LUX, SUN_COLOUR = 20000.0, (1.0, 0.95, 0.88)
 ENGINE_LIGHT = (0.34, 0.64, 1.0)
 
@@ -79,6 +79,7 @@ def register(s):
         s.kind("rock_fine_%d" % k, {"rock_red" if k == 1 else "rock": bodies.asteroid(510 + k, 36, 20, 9)})
         s.kind("rock_%d" % k, {"rock_red" if k == 1 else "rock": bodies.asteroid(520 + k, 16, 9, 4)})
     s.kind("rock_great", {"rock": bodies.asteroid(531, 96, 54, 14)})
+    s.kind("moon", {"rock": bodies.asteroid(533, 72, 40, 40, 0.04)})
     s.kind("outpost", outpost())
     s.kind("planet", {"planet": bodies.near_side(), "ocean": bodies.far_side()})
 
@@ -98,7 +99,7 @@ def outpost():
 # ---------------------------------------------------------------- ships and station
 
 def fleet(s):
-    """The cruiser, its fighters, two freighters and a shuttle; they drift along their headings when played."""
+    """The cruiser, its fighters, two freighters and a shuttle; they drift when played."""
     way = sg.unit(np.array([0.50, 0.05, -0.86]))
     ship = s.put("cruiser", "cruiser", (-48, -6, 96), heading(way, -6))
     for k, (x, y, r) in enumerate(hulls.CRUISER_ENGINES):
@@ -107,13 +108,13 @@ def fleet(s):
         s.light("cruiser_pod_%d" % k, (x, -4, -80), ENGINE_LIGHT, 1.4e6, 34.0, ship)
     for k, (x, y, z, colour) in enumerate(((-17, 21, -40, (1, 0.8, 0.5)), (12, 21, -38, (1, 0.8, 0.5)), (0, 18, 2, (0.7, 0.85, 1)), (0, -17, 30, (0.7, 0.85, 1)), (46, -4, -32, (1, 0.1, 0.05)), (-46, -4, -32, (0.1, 1, 0.3)))):
         s.light("cruiser_lamp_%d" % k, (x, y, z), colour, 2.0e5, 16.0, ship)
-    drift(s, ship, "cruiser", (-48, -6, 96), way * 60.0)
-    wing = [(-4, 12, 252), (15, 19, 230), (12, 1, 236), (36, 27, 206), (33, -6, 214), (60, 36, 180), (56, -14, 192), (-150, 40, 130), (-132, 52, 112)]
+    drift(s, ship, (-48, -6, 96), way * 24.0)
+    wing = [(-22, 16, 268), (0, 18, 250), (-2, 4, 251), (33, 26, 222), (27, -3, 225), (-150, 40, 130), (-132, 52, 112)]
     flight = sg.unit(np.array([0.16, 0.10, -0.98]))
     for k, at in enumerate(wing):
         craft = s.put("fighter", "fighter_%d" % k, at, heading(flight, -14 + 5 * (k % 3)))
         s.light("fighter_engine_%d" % k, (0, 0, -8.4), ENGINE_LIGHT, 9.0e4, 10.0, craft)
-        drift(s, craft, "fighter_%d" % k, at, flight * (90.0 + 4 * (k % 4)))
+        drift(s, craft, at, flight * (14.0 + 3 * (k % 4)))
     for k, (at, way) in enumerate((((420, 20, -520), (-0.72, 0.10, -0.69)), ((-330, 190, -760), (0.86, -0.06, -0.5)), ((700, 210, -1500), (-0.9, -0.05, 0.4)))):
         hauler = s.put("freighter", "freighter_%d" % k, at, heading(way, 4 * k))
         for j, place in enumerate(hulls.racks()):
@@ -121,15 +122,15 @@ def fleet(s):
                 s.put("container_" + ("orange", "teal", "sand", "grey")[(j * 5 + j // 3 + k) % 4], "container_%d_%02d" % (k, j), place, parent=hauler)
         for j, x in enumerate((-4, 4)):
             s.light("freighter_engine_%d%d" % (k, j), (x, 0, -75), ENGINE_LIGHT, 6.0e5, 26.0, hauler)
-        drift(s, hauler, "freighter_%d" % k, at, sg.unit(np.array(way)) * 40.0)
+        drift(s, hauler, at, sg.unit(np.array(way)) * 40.0)
     for k, (at, way) in enumerate((((120, 66, -330), (0.2, 0.1, -1)), ((250, 130, -620), (-0.3, -0.1, -1)), ((-20, 110, -560), (0.5, 0.0, -0.8)))):
         s.light("shuttle_engine_%d" % k, (0, 0, -14), ENGINE_LIGHT, 2.0e5, 14.0, s.put("shuttle", "shuttle_%d" % k, at, heading(way, 10 * k)))
 
 
-def drift(s, node, name, at, by, seconds=20.0):
-    """A slow slide along a heading, to be played once."""
-    at = np.asarray(at, float)
-    s.g.animate("drift", node, "translation", (0.0, seconds), (at, at + by))
+def drift(s, node, at, by, seconds=48.0):
+    """A slow slide along a heading and back, eased, so that it can be played round and round."""
+    at, t = np.asarray(at, float), np.linspace(0.0, 1.0, 13)
+    s.g.animate("drift", node, "translation", t * seconds, at + (0.5 - 0.5 * np.cos(math.tau * t))[:, None] * by)
 
 
 def build_station(s, at=(205, 118, -980)):
@@ -139,7 +140,7 @@ def build_station(s, at=(205, 118, -980)):
     s.put("spindle", "station_spindle", (0, 0, 0), parent=hub)
     ring = s.put("wheel", "station_wheel", (0, 0, 0), parent=hub)
     s.g.spin("wheel", ring, (0, 1, 0), 60.0)
-    face = math.degrees(math.atan2(-0.6, 0.5))
+    face = math.degrees(math.atan2(TO_SUN[0], TO_SUN[2])) - 8.0
     for k, (x, y, z, up) in enumerate(station.wing_places()):
         turn = sg.quaternion((0, 1, 0), face)
         if up:
@@ -199,7 +200,7 @@ def heavens(s):
     g, centre = s.g, PLANET_WAY * PLANET_FAR
     g.node("planet", centre, sg.aim(PLANET_WAY), PLANET_RADIUS, s.root, mesh=s.kinds["planet"])
     g.node("planet_air", centre, sg.aim(PLANET_WAY), PLANET_RADIUS, s.root, mesh=s.kinds["air"])
-    s.put("rock_great", "moon", (-3.1e5, 2.05e5, -1.02e6), sg.quaternion((0.2, 1, 0), 150), 2.3e4)
+    s.put("moon", "moon", (-2.35e5, 3.05e5, -1.02e6), sg.quaternion((0.2, 1, 0), 150), 5.5e4)
 
 
 def matrix_of(q):
@@ -212,12 +213,12 @@ def matrix_of(q):
 def planet_materials(g, mats):
     """The planet's own maps and the limb of its air; both are painted for eyes near the sector's middle."""
     frame = matrix_of(sg.aim(PLANET_WAY))
-    maps = {kind: g.texture("planet_" + kind, image) for kind, image in bodies.planet_maps(frame.T @ sg.unit(np.array((0.35, 0.90, 0.25)))).items()}
-    mats["planet"] = g.material("planet", maps, metal=0.0, emit=(1, 1, 1), nits=2600.0)
+    maps = {kind: g.texture("planet_" + kind, image, True) for kind, image in bodies.planet_maps(frame.T @ sg.unit(np.array((0.35, 0.90, 0.25)))).items()}
+    mats["planet"] = g.material("planet", maps, metal=0.0, emit=(1, 1, 1), nits=3200.0, substance="water")
     del g.materials[mats["planet"]]["occlusionTexture"]
     mats["ocean"] = g.material("ocean", base=(0.03, 0.06, 0.12), rough=0.6)
     mesh, glow = bodies.limb(PLANET_FAR / PLANET_RADIUS, frame.T @ TO_SUN)
-    mats["air"] = g.material("air", {"emit": g.texture("planet_air_emission", glow)}, (0, 0, 0), 1.0, 0.0, (1, 1, 1), 4200.0)
+    mats["air"] = g.material("air", {"emit": g.texture("planet_air_emission", glow, True)}, (0, 0, 0), 1.0, 0.0, (1, 1, 1), 4200.0)
     return mesh
 
 
@@ -225,7 +226,7 @@ def build_views(s):
     """`hero` first. Cameras see without a far plane."""
     cam = lambda name, eye, target, fov, near: s.g.camera(name, eye, target, fov, near, None, s.root)
     cam("hero", (-44, 32, 346), (10, 12, -200), 42.0, 0.5)
-    cam("close", (-112, 34, 92), (-20, 2, 60), 46.0, 0.2)
+    cam("close", (-17, 18, 121), (-5, 1, 29), 46.0, 0.2)
     cam("far", (-2600, 900, 2900), (300, -100, -1200), 40.0, 1.0)
 
 

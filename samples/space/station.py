@@ -87,14 +87,12 @@ def spindle():
     out.append(("nav_red", sg.sphere(1.6, 10, 6).moved(0, 231, 0)))
     dish = sg.lathe([sg.spline([(0.0, 0.0), (8.0, 1.0), (15.0, 4.0)], 3), [(15.0, 4.0), (14.6, 4.6)], sg.spline([(14.6, 4.6), (8.0, 1.8), (0.0, 0.9)], 3)], 24, PANEL)
     out.append(("hull", dish.turned((0, 0, 1), -70).moved(20, 118, 0)))
-    for y in (-96.0,):
-        for s in (-1, 1):
-            for dx, dz in ((-3, -3), (3, -3), (3, 3), (-3, 3)):
-                out.append(("metal", pipe((s * 20, y + dx, dz), (s * 330, y + dx, dz), 0.6, 5)))
-            for k in range(26):
-                x = s * (22 + 12 * k)
-                out.append(("metal", pipe((x, y - 3, -3), (x + s * 12, y + 3, -3), 0.35, 4)))
-                out.append(("metal", pipe((x, y - 3, 3), (x + s * 12, y + 3, 3), 0.35, 4)))
+    for s in (-1, 1):
+        # beams, not lattices: at a kilometre thin bars would only flicker
+        out.append(("hull_grey", solid([[(s * 20, -96 + dy, dz) for dy, dz in ((-4, -4), (4, -4), (4, 4), (-4, 4))], [(s * 332, -96 + dy, dz) for dy, dz in ((-2.4, -2.4), (2.4, -2.4), (2.4, 2.4), (-2.4, 2.4))]], PANEL)))
+        for x in (150.0, 200.0, 250.0, 300.0):
+            out.append(("hull_orange", block((7, 9.0, 9.0), (s * x, -100.5, 0), 1.0, PANEL)))
+        out.append(("nav_red" if s > 0 else "nav_green", block((3, 3, 3), (s * 334, -97.5, 0))))
     return collect(out)
 
 
