@@ -77,7 +77,7 @@ def camps(f):
         if not f.free(x, z, 1.4) or f.ground.at("road", x, z) < 5 or f.ground.at("river", x, z) < 14:
             continue
         f.put("campfire", x, z, 30 * k, 1.1, shade=0.3)
-        f.light("campfire_light", (x, f.height(x, z) + 1.4, z), FIRE)
+        f.light("campfire_light", (x, f.height(x, z) + 2.3, z), FIRE)
         for j in range(6):
             a = 1.047 * j + 0.4 * k
             px, pz = x + 2.6 * math.sin(a), z + 2.6 * math.cos(a)

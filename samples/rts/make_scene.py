@@ -35,8 +35,8 @@ from scenegen import Noise, Surface, blend, cavity, smooth  # noqa: E402
 from shapes import coloured, block, DARK  # noqa: E402
 
 EV100 = 7.3                     # the exposure this scene is lit for
-SUN_ELEVATION, SUN_AZIMUTH = 17.0, 172.0    # degrees; azimuth from +x towards -z
-SUN_LUX, SUN_COLOUR = 780.0, (1.0, 0.70, 0.40)
+SUN_ELEVATION, SUN_AZIMUTH = 23.0, 170.0    # degrees; azimuth from +x towards -z
+SUN_LUX, SUN_COLOUR = 680.0, (1.0, 0.70, 0.40)
 
 
 def sun_direction():
@@ -104,10 +104,10 @@ def make_materials(g, ground, contact):
     mats = {"flat": g.material("flat", rough=0.82)}
     for name, surface in (("stone", masonry()), ("plank", boards()), ("panel", panels()), ("tiles", tiles())):
         mats[name] = g.material(name, g.surface(name, surface))
-    mats["lamp"] = g.material("lamp", base=(0.9, 0.9, 0.8), rough=0.5, emit=(1.0, 0.92, 0.72), nits=900.0)
-    mats["glow_warm"] = g.material("glow_warm", base=(0.8, 0.7, 0.5), rough=0.5, emit=(1.0, 0.55, 0.16), nits=240.0)
-    mats["glow_cool"] = g.material("glow_cool", base=(0.7, 0.8, 0.9), rough=0.5, emit=(0.32, 0.72, 1.0), nits=280.0)
-    mats["fire"] = g.material("fire", base=(0.9, 0.5, 0.2), rough=0.7, emit=(1.0, 0.30, 0.04), nits=300.0)
+    mats["lamp"] = g.material("lamp", base=(0, 0, 0), rough=0.9, emit=(1.0, 0.92, 0.72), nits=900.0)
+    mats["glow_warm"] = g.material("glow_warm", base=(0, 0, 0), rough=0.9, emit=(1.0, 0.55, 0.16), nits=240.0)
+    mats["glow_cool"] = g.material("glow_cool", base=(0, 0, 0), rough=0.9, emit=(0.32, 0.72, 1.0), nits=280.0)
+    mats["fire"] = g.material("fire", base=(0, 0, 0), rough=0.9, emit=(1.0, 0.17, 0.008), nits=240.0)
     mats["crystal_violet"] = g.material("crystal_violet", base=(0.40, 0.12, 0.75), rough=0.18, emit=(0.55, 0.16, 1.0), nits=260.0)
     mats["crystal_teal"] = g.material("crystal_teal", base=(0.08, 0.60, 0.50), rough=0.18, emit=(0.10, 1.0, 0.72), nits=210.0)
     mats["ground"] = g.material("ground", {"base": g.texture("ground_base", sg.to_srgb(terrain.painted(ground, contact)))}, rough=0.9, metal=0.0)

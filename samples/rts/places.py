@@ -64,7 +64,7 @@ def red_base(f):
         x, z = f.local(cx, cz, turn, dx, dz)
         if f.free(x, z, 0.7):
             f.put("brazier", x, z, 40 * dx, 0.7)
-            f.light("brazier_fire", (x, f.height(x, z) + 2.0, z), FIRE)
+            f.light("brazier_fire", (x, f.height(x, z) + 2.9, z), FIRE)
     for dx, dz in ((0, 1.2), (20.6, -0.6), (-18, 3.6), (-12.6, 18.9)):
         x, z = f.local(cx, cz, turn, dx, dz)
         f.light("door_fire", (x, f.height(x, z) + 2.2, z), FIRE)

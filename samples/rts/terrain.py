@@ -67,16 +67,16 @@ class Ground:
         land = 2.3 + 5.0 * (self.broad - 0.5) + 0.7 * (self.fine - 0.5)
         away = np.hypot(x, z)
         edge = smooth(88, 190, away + 50 * (self.broad - 0.5))
-        land = land + edge * (8.0 + 60.0 * (self.broad - 0.28).clip(0, 1)) + 2.5 * edge * self.fine
+        land = land + edge * (7.0 + 42.0 * (self.broad - 0.28).clip(0, 1)) + 2.5 * edge * self.fine
         ridge = lambda cx, cz, r, top: top * np.exp(-((x - cx) ** 2 + (z - cz) ** 2) / (r * r))
-        land = land + ridge(-96, 4, 24, 5) + ridge(86, -84, 26, 12) + ridge(76, -4, 12, 4) + ridge(-16, -74, 20, 6)
+        land = land + ridge(86, -84, 26, 12) + ridge(76, -4, 12, 4) + ridge(-16, -74, 20, 6)
         for (cx, cz), radius, top in ((BLUE, 30, 3.2), (RED, 29, 6.0), (VILLAGE, 14, 3.2), (MINE, 9, 2.6)):
             d = np.hypot(x - cx, z - cz) + 6 * (self.fine - 0.5)
             land = land + (top - land) * smooth(radius + 8, radius, d)
         # roads are cut level with what they pass, at the height of the bridge's deck near it
         near = np.hypot(x - BRIDGE[0], z - BRIDGE[1])
         land = land + (2.75 - land) * smooth(26, 15, near) * smooth(7.0, 3.0, self.road)
-        valley = smooth(5.5, 15.0 + 14.0 * edge, self.river)
+        valley = smooth(5.5, 15.0 + 40.0 * edge, self.river)
         return (land.clip(0.9, None)) * valley - 2.6 * (1 - smooth(4.0, 9.5, self.river))
 
     def at(self, field, x, z):

@@ -79,16 +79,17 @@ def strip(sections, span, face, s0, s1, t, height=2.0, lift=0.14):
 
 
 def bell(radius, length, z, x=0.0, y=0.0, segments=20):
-    """An engine nozzle that opens towards -z: (metal, glow, core)."""
+    """An engine nozzle that opens towards -z: (metal, glow)."""
     outer = [(0.55 * radius, 0.0), (0.80 * radius, 0.30 * length), (0.97 * radius, 0.75 * length), (radius, length)]
     inner = [(0.93 * radius, length), (0.89 * radius, 0.82 * length)]
     throat = [(0.89 * radius, 0.82 * length), (0.80 * radius, 0.62 * length), (0.70 * radius, 0.52 * length)]
     nozzle = sg.lathe([sg.spline(outer, 3), [outer[-1], inner[0]], inner], segments, 4.0)
     hoop = sg.lathe([[(1.03 * radius, 0.80 * length), (1.06 * radius, 0.84 * length), (1.06 * radius, 0.92 * length), (1.03 * radius, 0.96 * length)]], segments, 4.0)
-    disc = sg.lathe([throat], segments, 4.0)
-    core = sg.lathe([[(0.70 * radius, 0.52 * length), (0.0, 0.48 * length)]], segments, 4.0)
+    glow = sg.lathe([throat, [(0.70 * radius, 0.52 * length), (0.35 * radius, 0.49 * length), (0.0, 0.48 * length)]], segments, 4.0)
+    rim = np.hypot(glow.p[:, 0], glow.p[:, 2]) / (0.89 * radius)
+    glow.uv = np.stack([glow.uv[:, 0] * 0.05, rim], 1)
     place = lambda m: m.turned((1, 0, 0), -90).moved(x, y, z)
-    return place(sg.merge(nozzle, hoop)), place(disc), place(core)
+    return place(sg.merge(nozzle, hoop)), place(glow)
 
 
 def collect(pairs):
@@ -141,15 +142,15 @@ def cruiser():
         out.append(("hull_orange", band(pod, -36, -32).moved(s * 38, -4, 0)))
         pylon = solid([[(s * 24, -2, -66), (s * 24, 2, -66), (s * 24, 2, -36), (s * 24, -2, -36)], [(s * 34, -5, -60), (s * 34, -3, -60), (s * 34, -3, -42), (s * 34, -5, -42)]], PANEL)
         out.append(("hull", pylon))
-        metal, glow, core = bell(3.4, 6, -69, s * 38, -4, 16)
-        out += [("metal", metal), ("engine", glow), ("engine_core", core), ("nav_red" if s > 0 else "nav_green", block((0.9, 0.9, 0.9), (s * 43.4, -4.4, -32)))]
+        metal, glow = bell(3.4, 6, -69, s * 38, -4, 16)
+        out += [("metal", metal), ("engine", glow), ("nav_red" if s > 0 else "nav_green", block((0.9, 0.9, 0.9), (s * 43.4, -4.4, -32)))]
         # radiators
         for k in range(3):
             fin = solid([[(s * 12, 13.5, -82 + 7 * k), (s * 12, 13.5, -77 + 7 * k), (s * 13, 13.5, -77 + 7 * k), (s * 13, 13.5, -82 + 7 * k)], [(s * 19, 30, -84 + 7 * k), (s * 19, 30, -80 + 7 * k), (s * 19.4, 30, -80 + 7 * k), (s * 19.4, 30, -84 + 7 * k)]], PANEL)
             out.append(("hull_dark", fin))
     for x, y, r in CRUISER_ENGINES:
-        metal, glow, core = bell(r, 10, -89, x, y)
-        out += [("metal", metal), ("engine", glow), ("engine_core", core)]
+        metal, glow = bell(r, 10, -89, x, y)
+        out += [("metal", metal), ("engine", glow)]
     for z, y in ((16.0, 12.4), (40.0, 11.4), (62.0, 9.2)):
         out += turret(0.0, y, z)
     for s in (-1, 1):
@@ -180,8 +181,8 @@ def fighter():
         fin = solid([[(s * 1.1, 0.5, -5.4), (s * 1.3, 0.5, -5.4), (s * 1.3, 0.5, -2.8), (s * 1.1, 0.5, -2.8)], [(s * 2.0, 2.6, -6.4), (s * 2.1, 2.6, -6.4), (s * 2.1, 2.6, -5.2), (s * 2.0, 2.6, -5.2)]], PANEL)
         nacelle = [(-5.4, 0.62, 0.58, 0.28), (-1.2, 0.66, 0.62, 0.3), (1.2, 0.5, 0.46, 0.22)]
         out += [("hull", wing), ("hull_orange", stripe), ("hull_grey", fin), ("hull_grey", loft(nacelle).moved(s * 1.75, 0, 0))]
-        metal, glow, core = bell(0.62, 1.3, -5.3, s * 1.75, 0, 14)
-        out += [("metal", metal), ("engine", glow), ("engine_core", core), ("metal", pipe((s * 6.2, -0.78, -3.2), (s * 6.2, -0.78, 1.6), 0.12, 6)),
+        metal, glow = bell(0.62, 1.3, -5.3, s * 1.75, 0, 14)
+        out += [("metal", metal), ("engine", glow), ("metal", pipe((s * 6.2, -0.78, -3.2), (s * 6.2, -0.78, 1.6), 0.12, 6)),
                 ("nav_red" if s > 0 else "nav_green", block((0.16, 0.16, 0.3), (s * 6.3, -0.86, -4.6)))]
     return collect(out)
 
@@ -204,8 +205,8 @@ def freighter():
     tail = [(-66, 7, 6, 2.5), (-60, 9, 8, 3), (-46, 8, 7, 3)]
     out += [("hull_grey", loft(tail)), ("hull_sand", band(tail, -58, -54, 0.3)), ("metal", greebles(rng, tail, [(1, 0), (1, 2), (1, 4)], 18, (1.0, 3.0), (0.3, 1.0)))]
     for x in (-4, 4):
-        metal, glow, core = bell(3.4, 6, -65, x, 0, 16)
-        out += [("metal", metal), ("engine", glow), ("engine_core", core)]
+        metal, glow = bell(3.4, 6, -65, x, 0, 16)
+        out += [("metal", metal), ("engine", glow)]
     for s in (-1, 1):
         out.append(("foil", sg.sphere(3.2, 16, 10, 3.0).moved(s * 8.5, 0, -40)))
     return collect(out)
@@ -229,6 +230,6 @@ def shuttle():
     body = [(-10, 3.0, 2.6, 1.2), (-7, 4.0, 3.4, 1.6), (4, 4.0, 3.4, 1.6), (9, 2.6, 2.0, 1.0, -0.5), (11, 1.2, 0.9, 0.5, -0.8)]
     out = [("hull", loft(body)), ("hull_teal", band(body, -5, -2.5, 0.15)), ("canopy", strip(body, 2, 2, 0.15, 0.8, 0.5, 3.4)), ("windows", strip(body, 1, 0, 0.2, 0.9, 0.62)), ("windows", strip(body, 1, 4, 0.2, 0.9, 0.62))]
     for s in (-1, 1):
-        metal, glow, core = bell(1.5, 3, -9.4, s * 2.0, 0, 14)
-        out += [("metal", metal), ("engine", glow), ("engine_core", core), ("hull_grey", solid([[(s * 3.6, -1.5, -8), (s * 3.6, -0.8, -8), (s * 3.6, -0.8, 0), (s * 3.6, -1.5, 0)], [(s * 9, -2.2, -9), (s * 9, -1.9, -9), (s * 9, -1.9, -5), (s * 9, -2.2, -5)]], PANEL))]
+        metal, glow = bell(1.5, 3, -9.4, s * 2.0, 0, 14)
+        out += [("metal", metal), ("engine", glow), ("hull_grey", solid([[(s * 3.6, -1.5, -8), (s * 3.6, -0.8, -8), (s * 3.6, -0.8, 0), (s * 3.6, -1.5, 0)], [(s * 9, -2.2, -9), (s * 9, -1.9, -9), (s * 9, -1.9, -5), (s * 9, -2.2, -5)]], PANEL))]
     return collect(out)

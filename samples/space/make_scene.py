@@ -113,7 +113,7 @@ def fleet(s):
     flight = sg.unit(np.array([0.16, 0.10, -0.98]))
     for k, at in enumerate(wing):
         craft = s.put("fighter", "fighter_%d" % k, at, heading(flight, -14 + 5 * (k % 3)))
-        s.light("fighter_engine_%d" % k, (0, 0, -8.4), ENGINE_LIGHT, 9.0e4, 10.0, craft)
+        s.light("fighter_engine_%d" % k, (0, 0, -8.4), ENGINE_LIGHT, 4.0e4, 10.0, craft)
         drift(s, craft, at, flight * (14.0 + 3 * (k % 4)))
     for k, (at, way) in enumerate((((420, 20, -520), (-0.72, 0.10, -0.69)), ((-330, 190, -760), (0.86, -0.06, -0.5)), ((700, 210, -1500), (-0.9, -0.05, 0.4)))):
         hauler = s.put("freighter", "freighter_%d" % k, at, heading(way, 4 * k))
@@ -227,7 +227,7 @@ def build_views(s):
     cam = lambda name, eye, target, fov, near: s.g.camera(name, eye, target, fov, near, None, s.root)
     cam("hero", (-44, 32, 346), (10, 12, -200), 42.0, 0.5)
     cam("close", (-17, 18, 121), (-5, 1, 29), 46.0, 0.2)
-    cam("far", (-2600, 900, 2900), (300, -100, -1200), 40.0, 1.0)
+    cam("far", (-760, 380, 1480), (90, 20, -620), 36.0, 1.0)
 
 
 def build(folder):

@@ -34,7 +34,7 @@ def hull_surface(seed=401, bare=0.07, metres=32.0, size=1024):
     seam = smooth(1.2, 3.2, edge)
     grit, cloud = z.fbm(48, octaves=3), z.fbm(5, octaves=4)
     streak = z.fbm(48, 3, 3)
-    worn = smooth(0.72, 0.76, z.fbm(16, octaves=4) + 0.14 * smooth(8, 2, edge))
+    worn = smooth(0.77, 0.81, z.fbm(16, octaves=4) + 0.14 * smooth(8, 2, edge))
     rivet = np.zeros((size, size))
     pitch = 16
     rx, ry = np.abs((np.arange(size) % pitch) - 7.5), np.abs((np.arange(size) % pitch) - 7.5)
@@ -116,6 +116,13 @@ def rock_surface():
     return Surface(8.0, height, colour, 0.93 - 0.1 * fine, 0 * broad, cavity(height, 0.5, 8))
 
 
+def engine_glow():
+    """A nozzle's emission from its middle (v = 0) to its rim."""
+    r = np.linspace(0.0, 1.0, 64)
+    tone = blend((0.62, 0.85, 1.0), (0.05, 0.26, 1.0), smooth(0.25, 0.75, r)) * (0.06 + 0.94 * np.exp(-(r / 0.42) ** 2))[:, None]
+    return sg.to_srgb(np.repeat(tone[:, None], 8, 1))
+
+
 def make_materials(g):
     """Every material of the scene by name."""
     hull = g.surface("hull", hull_surface())
@@ -130,7 +137,8 @@ def make_materials(g):
             "metal": g.material("metal", metal), "foil": g.material("foil", foil, (1.0, 0.729, 0.364), substance="gold"), "solar": g.material("solar", solar),
             "rock": g.material("rock", rock), "rock_red": g.material("rock_red", rock, (1.0, 0.78, 0.60)),
             "windows": g.material("windows", lit, emit=(1, 1, 1), nits=9000.0), "canopy": g.material("canopy", base=(0.012, 0.018, 0.025), rough=0.06, substance="glass")}
-    for name, colour, nits in (("engine", (0.16, 0.48, 1.0), 11000.0), ("engine_core", (0.55, 0.80, 1.0), 24000.0), ("nav_red", (1.0, 0.06, 0.03), 26000.0), ("nav_green", (0.08, 1.0, 0.25), 26000.0),
+    mats["engine"] = g.material("engine", {"emit": g.texture("engine_emission", engine_glow(), True)}, (0.02, 0.02, 0.02), 0.6, 0.0, (1, 1, 1), 40000.0)
+    for name, colour, nits in (("nav_red", (1.0, 0.06, 0.03), 26000.0), ("nav_green", (0.08, 1.0, 0.25), 26000.0),
                                ("flood", (1.0, 0.90, 0.72), 30000.0)):
         mats[name] = g.material(name, base=(0.02, 0.02, 0.02), rough=0.6, emit=colour, nits=nits)
     return mats
