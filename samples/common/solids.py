@@ -58,6 +58,21 @@ def rectangle(width, depth, y, x=0.0, z=0.0):
     return [(x - w, y, z - d), (x + w, y, z - d), (x + w, y, z + d), (x - w, y, z + d)]
 
 
+def retangent(mesh):
+    """Tangents that follow new texture coordinates, of a mesh whose faces share no vertices."""
+    a, b, c = (mesh.i[:, k] for k in range(3))
+    e1, e2 = mesh.p[b] - mesh.p[a], mesh.p[c] - mesh.p[a]
+    (u1, v1), (u2, v2) = (mesh.uv[b] - mesh.uv[a]).T, (mesh.uv[c] - mesh.uv[a]).T
+    side = np.sign(u1 * v2 - u2 * v1)
+    for corner in (a, b, c):
+        n = mesh.n[corner]
+        t = (e1 * v2[:, None] - e2 * v1[:, None]) * side[:, None]
+        t = sg.unit(t - n * np.sum(t * n, -1, keepdims=True))
+        # v grows downwards: a counter-clockwise face whose u and v turn clockwise is not mirrored
+        mesh.t[corner] = np.concatenate([t, -side[:, None]], 1)
+    return mesh
+
+
 def block(size, at=(0, 0, 0), taper=1.0, metres=2.0):
     """A box that stands on its foot point `at`; taper scales its top."""
     w, h, d = size

@@ -17,6 +17,14 @@ def vehicle(f, kind, x, z, turn, radius=3.6, lit=True, y=None):
     return node
 
 
+def fire(f, x, y, z, turn):
+    """A tank that stands there has just fired: the flash at its gun, and its light."""
+    tip = f.local(x, z, turn, 0.0, 4.4)
+    f.g.node(f.name("flash"), (tip[0], y + 2.0, tip[1]), turn, mesh=f.kinds["flash"])
+    tip = f.local(x, z, turn, 0.0, 5.2)
+    f.light("flash_light", (tip[0], y + 2.2, tip[1]), ((1.0, 0.74, 0.36), 4200.0, 10.0))
+
+
 def squad(f, faction, x, z, turn, rows=3, columns=4, gap=1.9, heavy_row=0):
     """Soldiers in rows that face the same way, one of them with a banner beside."""
     for r in range(rows):
@@ -39,10 +47,15 @@ def deploy(f):
         vehicle(f, ("tank_blue", "truck_blue", "tank_blue")[k], x, z, turn)
     for t in (-7.5, 1.6):                                               # two tanks on the bridge itself
         vehicle(f, "tank_blue", BRIDGE[0] + ACROSS[0] * t, BRIDGE[1] + ACROSS[1] * t, BRIDGE_TURN, y=DECK)
+    fire(f, BRIDGE[0] + ACROSS[0] * 1.6, DECK, BRIDGE[1] + ACROSS[1] * 1.6, BRIDGE_TURN)
+    normal = np.array([-ACROSS[1], ACROSS[0]])                          # along the river, to the right of blue's advance
+    for a, s, turn in ((15.6, -7.6, 200.0), (-15.5, 19.5, 100.0), (17.5, 16.0, 310.0)):
+        x, z = np.array(BRIDGE) + a * ACROSS + s * normal
+        f.put("wreck", x, z, turn, 3.4, tilt=1.0, shade=0.6)
+        f.light("wreck_fire", (x, f.height(x, z) + 4.6, z), FIRE)
     back = [p[::-1] for p in (ROADS["main"],)][0]
     for k, (x, z, turn) in enumerate(along(back, 9.0, 8.6, 4)):
         vehicle(f, ("truck_red", "tank_red", "tank_red", "tank_red")[k], x, z, turn)
-    normal = np.array([-ACROSS[1], ACROSS[0]])                          # along the river, to the right of blue's advance
     face = bearing(*ACROSS)
     for faction, sign in (("blue", -1), ("red", 1)):
         turn = face if sign < 0 else face + 180

@@ -3,7 +3,7 @@ timber: battered walls, steep red roofs, forges, fire. Every function returns {m
 import numpy as np
 
 import scenegen as sg
-from nature import flame
+from nature import burning, flame
 from shapes import DARK, STEEL, WOOD, WOOD_PALE, ball, block, coloured, drum, grounded, outline, pipe, polygon, profile, rectangle, solid
 
 WHITE, BLUE, NAVY, TRIM = "#e3e7ea", "#2767d6", "#27405f", "#6fb1ff"
@@ -195,7 +195,8 @@ def red_foundry():
         stone.append((drum(8, 1.25, 1.25, 0.7, (x, h - 0.6, -3.4)), IRON))
     roof = [(hip_roof(12.4, 9.4, 4.6, 2.9, 0.5, 0.45), "#7e3a2c")]
     flat = [(outline([(-2.3, 0.0), (2.3, 0.0), (2.3, 2.2), (1.2, 3.4), (-1.2, 3.4), (-2.3, 2.2)], 0.7).moved(2.6, 0.2, 4.8), IRON), (block((1.8, 0.9, 2.6), (-4.0, 0, 5.9)), WOOD), (block((1.5, 0.5, 2.2), (-4.0, 0.7, 5.9)), "#23262b")]
-    fire = [outline([(-1.6, 0.0), (1.6, 0.0), (1.6, 1.9), (0.8, 2.7), (-0.8, 2.7), (-1.6, 1.9)], 0.2).moved(2.6, 0.3, 5.12), drum(8, 0.9, 0.5, 0.5, (-4.2, 12.0, -3.4)), drum(8, 0.9, 0.5, 0.5, (-0.8, 10.0, -3.4))]
+    fire = [burning(outline([(-1.6, 0.0), (1.6, 0.0), (1.6, 1.9), (0.8, 2.7), (-0.8, 2.7), (-1.6, 1.9)], 0.2).moved(2.6, 0.3, 5.12), -0.2, 3.6)]
+    fire += [burning(drum(8, 0.9, 0.5, 0.5, (x, y, -3.4)), y - 0.3, y + 0.9) for x, y in ((-4.2, 12.0), (-0.8, 10.0))]
     return gather(stone=stone, tiles=roof, flat=flat, fire=fire, glow_warm=windows(2, 0.9, 2.2, 4.78, -3.6, -1.6, 0.9))
 
 

@@ -7,7 +7,7 @@ import scenegen as sg
 from armies import camps, deploy, patrols
 from field import BRIDGE_TURN, DECK, GLOWS, WARM, along, lamp
 from places import blue_base, red_base, village
-from terrain import ACROSS, BLUE, BRIDGE, MINE, RED, RIVER, ROADS, VILLAGE, samples
+from terrain import ACROSS, BLUE, BRIDGE, CRATERS, MINE, RED, RIVER, ROADS, VILLAGE, samples
 
 
 def mine(f):
@@ -97,6 +97,7 @@ def furnish(f):
     """Everything, the large things first."""
     f.g.node("bridge", (BRIDGE[0], DECK, BRIDGE[1]), BRIDGE_TURN, mesh=f.kinds["bridge"])
     f.taken += [(BRIDGE[0] + ACROSS[0] * t, BRIDGE[1] + ACROSS[1] * t, 3.0) for t in np.linspace(-15, 15, 7)]
+    f.taken += [(x, z, 0.8 * r) for x, z, r in CRATERS]
     blue_base(f)
     red_base(f)
     village(f)

@@ -107,7 +107,8 @@ def make_materials(g, ground, contact):
     mats["lamp"] = g.material("lamp", base=(0, 0, 0), rough=0.9, emit=(1.0, 0.92, 0.72), nits=900.0)
     mats["glow_warm"] = g.material("glow_warm", base=(0, 0, 0), rough=0.9, emit=(1.0, 0.55, 0.16), nits=240.0)
     mats["glow_cool"] = g.material("glow_cool", base=(0, 0, 0), rough=0.9, emit=(0.32, 0.72, 1.0), nits=280.0)
-    mats["fire"] = g.material("fire", base=(0, 0, 0), rough=0.9, emit=(1.0, 0.17, 0.008), nits=240.0)
+    mats["fire"] = g.material("fire", {"emit": g.texture("fire_emission", n.fire_glow(), True)}, (0, 0, 0), 0.9, 0.0, (1, 1, 1), 260.0)
+    mats["flash"] = g.material("flash", base=(0, 0, 0), rough=0.9, emit=(1.0, 0.62, 0.18), nits=900.0)
     mats["crystal_violet"] = g.material("crystal_violet", base=(0.40, 0.12, 0.75), rough=0.18, emit=(0.55, 0.16, 1.0), nits=260.0)
     mats["crystal_teal"] = g.material("crystal_teal", base=(0.08, 0.60, 0.50), rough=0.18, emit=(0.10, 1.0, 0.72), nits=210.0)
     mats["ground"] = g.material("ground", {"base": g.texture("ground_base", sg.to_srgb(terrain.painted(ground, contact)))}, rough=0.9, metal=0.0)
@@ -136,6 +137,7 @@ def pieces():
     for faction in ("blue", "red"):
         out.update({"soldier_" + faction: u.soldier(faction), "heavy_" + faction: u.soldier(faction, True), "tank_" + faction: u.tank(faction), "truck_" + faction: u.truck(faction),
                     "artillery_" + faction: u.artillery(faction), "boat_" + faction: u.boat(faction), "flag_" + faction: u.flag(faction)})
+    out.update(wreck=u.wreck(), flash=u.flash())
     for name in ("hq", "barracks", "factory", "power", "tower", "wall"):
         out["blue_" + name] = getattr(b, "blue_" + name)()
     for name in ("keep", "longhouse", "foundry", "tower", "palisade"):

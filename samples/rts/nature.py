@@ -2,7 +2,7 @@
 import numpy as np
 
 import scenegen as sg
-from shapes import DARK, STEEL, STONE, WOOD, WOOD_PALE, ball, block, colour, coloured, drum, grounded, pipe, polygon, solid, tint
+from shapes import DARK, STEEL, STONE, WOOD, WOOD_PALE, ball, block, colour, coloured, drum, grounded, pipe, polygon, retangent, solid, tint
 
 
 def shaded_crown(mesh, low, high, y0, y1):
@@ -73,7 +73,7 @@ def rock(seed, pale="#a39b93"):
     """A boulder about 1.5 m across, sunk a little."""
     m = tint(facets(seed, (1.05, 0.8, 0.95)), pale).moved(0, 0.45, 0)
     m.c = m.c * (0.78 + 0.3 * np.clip(m.n[:, 1:2], -0.3, 1))
-    return {"stone": grounded(m, 0.5, 0.5)}
+    return {"flat": grounded(m, 0.5, 0.5)}
 
 
 def crystal(seed, tone):
@@ -112,7 +112,21 @@ def flame(radius, height):
     """A faceted tongue of fire standing on y = 0."""
     main = solid([polygon(6, 0.5 * radius, 0), polygon(6, radius, 0.3 * height), np.tile([0.06, height, 0.0], (6, 1))], 1.0, (False, False))
     side = solid([polygon(5, 0.3 * radius, 0), polygon(5, 0.5 * radius, 0.2 * height), np.tile([0.1, 0.62 * height, 0.05], (5, 1))], 1.0, (False, False))
-    return sg.merge(main, side.moved(0.55 * radius, 0, 0.3 * radius), side.turned((0, 1, 0), 140).moved(-0.45 * radius, 0, -0.3 * radius))
+    return burning(sg.merge(main, side.moved(0.55 * radius, 0, 0.3 * radius), side.turned((0, 1, 0), 140).moved(-0.45 * radius, 0, -0.3 * radius)), 0.0, height)
+
+
+def burning(mesh, low, high):
+    """Texture coordinates for the fire's emission, which runs from yellow at `low` to red at `high`."""
+    x, y, z = mesh.p.T
+    mesh.uv = np.stack([0.5 + 0.10 * x + 0.07 * z, 0.98 - 0.96 * (y - low) / (high - low) + 0.010 * x - 0.013 * z], 1)
+    return retangent(mesh)
+
+
+def fire_glow():
+    """The emission that `burning` looks into, its top row the tip of a flame."""
+    v = np.linspace(0.0, 1.0, 64)
+    tone = sg.blend(sg.blend((0.55, 0.02, 0.0), (1.0, 0.16, 0.006), sg.smooth(0.0, 0.5, v)), (1.0, 0.62, 0.12), sg.smooth(0.55, 1.0, v))
+    return sg.to_srgb(np.repeat(tone[:, None], 8, 1))
 
 
 def campfire():

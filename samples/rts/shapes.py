@@ -3,7 +3,7 @@ import dataclasses
 
 import numpy as np
 
-from solids import ball, block, cap, colour, coloured, drum, outline, pipe, polygon, profile, rectangle, solid, tint, wheel  # noqa: F401
+from solids import ball, block, cap, colour, coloured, drum, outline, pipe, polygon, profile, rectangle, retangent, solid, tint, wheel  # noqa: F401
 
 DARK, STEEL, BONE = "#2e333b", "#7d8894", "#d9d4c6"
 WOOD, WOOD_PALE, STONE = "#6b4a2f", "#a5794a", "#8d8a86"

@@ -12,6 +12,7 @@ RIVER = np.array([(-190, -250), (-128, -150), (-82, -96), (-52, -58), (-24, -28)
 LAKE = (-86.0, -98.0, 30.0)
 BLUE, RED, VILLAGE, MINE = (-44.0, 24.0), (44.0, -40.0), (-66.0, -34.0), (58.0, 14.0)
 BRIDGE = (1.0, -4.0)
+CRATERS = [(-3.5, 15.0, 2.3), (-17.0, -5.0, 2.0), (17.5, -4.5, 2.4), (5.5, -29.0, 2.1), (28.0, -3.0, 1.9), (-8.0, 31.0, 2.0), (-24.0, -2.0, 1.7), (22.5, 4.0, 2.0), (2.0, 33.0, 1.7)]
 ACROSS = np.array([0.70, -0.714])    # unit, over the bridge from blue to red
 ROADS = {
     "main": [(-44, 24), (-30, 19), (-18, 12), (-9.5, 6.7), (11.5, -14.7), (17.5, -19.4), (24.3, -24.6), (34, -32), (43, -37)],
@@ -76,6 +77,9 @@ class Ground:
         # roads are cut level with what they pass, at the height of the bridge's deck near it
         near = np.hypot(x - BRIDGE[0], z - BRIDGE[1])
         land = land + (2.75 - land) * smooth(26, 15, near) * smooth(7.0, 3.0, self.road)
+        for cx, cz, r in CRATERS:
+            d = np.hypot(x - cx, z - cz) / r
+            land = land - 0.75 * smooth(1.0, 0.1, d) + 0.28 * np.exp(-((d - 1.15) / 0.3) ** 2)
         valley = smooth(5.5, 15.0 + 40.0 * edge, self.river)
         return (land.clip(0.9, None)) * valley - 2.6 * (1 - smooth(4.0, 9.5, self.river))
 
@@ -161,6 +165,11 @@ def painted(ground, contact, factor=4):
     cliff = edge(0.66, 0.78, slope + 0.25 * (grain - 0.5))
     out = mix(out, colour("#a39a92"), cliff)
     out = mix(out, colour("#857c78"), cliff * edge(0.5, 0.55, strokes))
+    x, z = grid()
+    for cx, cz, r in CRATERS:
+        d = up(np.hypot(x - cx, z - cz)) / r + 0.9 * (grain - 0.5)
+        out = mix(out, colour("#6f5a3c"), edge(1.75, 1.35, d) * 0.8)
+        out = mix(out, colour("#3a2f25"), edge(1.15, 0.6, d) * 0.9)
     return out * (0.9 + 0.2 * grain)[..., None] * (0.55 + 0.45 * up(contact))[..., None]
 
 

@@ -4,7 +4,8 @@ Every function returns {material: mesh}; `flat` takes its colours from the verti
 import numpy as np
 
 import scenegen as sg
-from shapes import DARK, FACTIONS, STEEL, WOOD, ball, block, coloured, drum, grounded, outline, pipe, profile, rectangle, solid, tint, wheel
+from nature import flame
+from shapes import DARK, FACTIONS, STEEL, WOOD, ball, block, coloured, drum, grounded, outline, pipe, polygon, profile, rectangle, solid, tint, wheel
 
 
 def soldier(faction, heavy=False):
@@ -64,6 +65,21 @@ def tank(faction):
     exhaust = sg.merge(*[block((0.5, 0.35, 0.3), (0.65 * s, 1.15, -3.3)) for s in (-1, 1)])
     parts.append((exhaust, "#23262b"))
     return {"flat": grounded(coloured(*parts), 0.55, 0.5), "lamp": lamps(0.8, 1.33, 2.78)}
+
+
+def wreck():
+    """A burnt-out tank, its turret askew, still burning."""
+    hull = tank("red")["flat"]
+    ash = 0.05 + 0.16 * np.random.Generator(np.random.PCG64(7)).random((len(hull.p), 1))
+    hull.c = hull.c * 0.10 + ash * np.array((0.32, 0.27, 0.24))
+    return {"flat": hull, "fire": sg.merge(flame(0.6, 1.9).moved(0.2, 2.2, -0.5), flame(0.45, 1.3).moved(-0.7, 1.4, -2.4), flame(0.35, 1.0).moved(0.9, 1.4, 1.2))}
+
+
+def flash():
+    """A muzzle flash along +z from the origin."""
+    tongue = solid([polygon(6, 0.12, 0), polygon(6, 0.42, 0.55), np.tile([0.0, 2.1, 0.0], (6, 1))], 1.0, (False, False)).turned((1, 0, 0), 90)
+    spikes = [solid([polygon(4, 0.14, 0), np.tile([0.0, 1.0, 0.0], (4, 1))], 1.0, (False, False)).turned((1, 0, 0), 48).moved(0, 0, 0.15).turned((0, 0, 1), 72 * k) for k in range(5)]
+    return {"flash": sg.merge(tongue, *spikes)}
 
 
 def lamps(x, y, z, size=0.24):
