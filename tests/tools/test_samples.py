@@ -5,10 +5,14 @@ SAMPLES is the folder of generated scenes, SOURCES that of the scripts. `Regener
 import json
 import math
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
 import unittest
+import zlib
+
+import numpy as np
 
 BURNISH, SAMPLES, SOURCES = "", pathlib.Path(), pathlib.Path()
 
@@ -45,21 +49,48 @@ class Scene:
         return {self.nodes[c["target"]["node"]]["name"] for a in self.doc["animations"] for c in a["channels"]}
 
 
+def png(data):
+    """The pixels (h, w, channels) of an 8-bit PNG."""
+    at, packed = 8, b""
+    while at < len(data):
+        length, kind = int.from_bytes(data[at:at + 4], "big"), data[at + 4:at + 8]
+        body, at = data[at + 8:at + 8 + length], at + 12 + length
+        if kind == b"IHDR":
+            w, h, n = int.from_bytes(body[:4], "big"), int.from_bytes(body[4:8], "big"), {2: 3, 6: 4}[body[9]]
+        packed += body if kind == b"IDAT" else b""
+    rows = np.frombuffer(zlib.decompress(packed), np.uint8).reshape(h, 1 + w * n)
+    out = np.zeros((h + 1, (w + 1) * n), np.int32)              # a row above and a pixel to the left stay zero
+    for y in range(h):
+        kind, line, above = rows[y, 0], out[y + 1], out[y]
+        for x in range(n, (w + 1) * n):
+            a, b, c = line[x - n], above[x], above[x - n]
+            p = a + b - c
+            paeth = min((abs(p - a), 0, a), (abs(p - b), 1, b), (abs(p - c), 2, c))[2]
+            line[x] = (int(rows[y, 1 + x - n]) + (0, a, b, (a + b) // 2, paeth)[kind]) & 255
+    return out[1:, n:].reshape(h, w, n)
+
+
 class Samples(unittest.TestCase):
     def render(self, scene, camera, *more):
+        """The report and the pixels."""
         with tempfile.TemporaryDirectory(prefix="burnish-samples-") as folder:
-            report = pathlib.Path(folder) / "report.json"
+            report, picture = pathlib.Path(folder) / "report.json", pathlib.Path(folder) / "a.png"
             result = subprocess.run([BURNISH, "render", scene.file, "--camera", camera, "--size", "160x90", "--exposure", str(scene.extras["ev100"]),
-                                     "-o", pathlib.Path(folder) / "a.png", "--json", report, *more], capture_output=True, text=True, timeout=120)
+                                     "-o", picture, "--json", report, *more], capture_output=True, text=True, timeout=120)
             self.assertEqual(result.returncode, 0, result.stderr)
-            return json.loads(report.read_text())
+            return json.loads(report.read_text()), png(picture.read_bytes())
 
     def clean(self, scene):
-        """Every number of the picture is finite, nothing is warned of."""
-        report = self.render(scene, "hero")
-        self.assertEqual(report["nonfinite_pixels"], 0)
-        self.assertEqual(report["gl_errors"], 0)
-        self.assertEqual(report["warnings"], [])
+        """Every number of the picture is finite, nothing is warned of; playing the animations changes a little of it."""
+        report, still = self.render(scene, "hero")
+        later, moved = self.render(scene, "hero", "--time", "5")
+        for seen in (report, later):
+            self.assertEqual(seen["nonfinite_pixels"], 0)
+            self.assertEqual(seen["gl_errors"], 0)
+            self.assertEqual(seen["warnings"], [])
+        changed = np.mean(np.abs(still - moved).max(-1) > 8)
+        self.assertTrue(0.001 < changed < 0.3, changed)
+        return still
 
     def well_made(self, scene):
         """The script's own check of tangents, winding, bounds; names on everything that a host may look up."""
@@ -118,7 +149,16 @@ class Samples(unittest.TestCase):
         self.assertNotIn("fog", scene.extras)
         self.assertEqual(scene.cameras(), {"hero", "close", "far"})
         self.assertTrue({"station_wheel", "cruiser", "fighter_0"} <= scene.animated())
-        self.clean(scene)
+        there = self.clean(scene)
+        # The same picture at the origin: 1.2e6 m away nothing trembles.
+        with tempfile.TemporaryDirectory(prefix="burnish-samples-") as folder:
+            shutil.copytree(scene.file.parent, pathlib.Path(folder) / "space")
+            scene.file = pathlib.Path(folder) / "space/space.gltf"
+            scene.root_of(0)["translation"] = [0, 0, 0]
+            scene.file.write_text(json.dumps(scene.doc))
+            _, here = self.render(scene, "hero")
+        off = np.abs(here - there).max(-1)
+        self.assertLess(np.mean(off > 1), 0.002)
 
     def test_fps_lights(self):
         self.assertEqual(Scene("fps").shadowed(), ["lamp_1", "lamp_2", "lamp_3", "sun_shaft"])
