@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "plan/variants.h"
+
 namespace burnish::gpu_scene {
 
 Result<void> TargetPool::prepare(const FramePlan& plan) {
@@ -55,7 +57,7 @@ Result<GLuint> TargetPool::framebuffer(std::initializer_list<std::string_view> c
   return id;
 }
 
-gl::ProgramSource sourceOf(const ProgramPlan& p) { return {p.name, p.vertex, p.fragment, {}, p.defines}; }
+gl::ProgramSource sourceOf(const ProgramPlan& p) { return {p.name, p.vertex, p.fragment, p.compute, p.defines}; }
 
 Result<void> ProgramSet::prepare(const FramePlan& plan) {
   if (plan.programs == plan_) return {};
@@ -191,14 +193,16 @@ namespace {
 bool bindMesh(FrameContext& c, std::size_t i, bool general, bool instanced, BoundInstance& bound) {
   const scene::VisibleInstance& v = c.visible[i];
   const Material* material = c.scene.materials.get(v.instance->material);
-  const GpuMesh* mesh = c.gpuScene.mesh(c.scene, v.instance->mesh, material && (material->mapB || material->anisotropy > 0), c.report);
+  const GpuMesh* mesh = c.gpuScene.mesh(c.scene, v.instance->mesh, material && plan::wantsTangents(*material), c.report);
   if (!mesh) return false;
+  const GLuint vertices = v.pose ? c.gpuScene.deformation().vertices(v.id, mesh->serial) : mesh->vertices.id();
+  if (!vertices) return false;
   const GladGLContext& gl = c.device.gl;
   const gl::VertexArray* wanted = &c.buffers.array(c.device, general, instanced);
   if (wanted != bound.array) wanted->bind();
-  if (mesh != bound.mesh || wanted != bound.array) {
+  if (mesh != bound.mesh || vertices != bound.vertices || wanted != bound.array) {
     const GLuint array = wanted->id();
-    gl.VertexArrayVertexBuffer(array, 0, mesh->vertices.id(), 0, GpuMesh::kStride);
+    gl.VertexArrayVertexBuffer(array, 0, vertices, 0, GpuMesh::kStride);
     // A mesh without extras in a general program: its vertices stand in; DrawData says that there is no colour, and uv set 1 is not asked for.
     if (general) gl.VertexArrayVertexBuffer(array, 1, mesh->extras ? mesh->extras.id() : mesh->vertices.id(), 0, mesh->extras ? GpuMesh::kExtraStride : GpuMesh::kStride);
     gl.VertexArrayElementBuffer(array, mesh->indices.id());
@@ -209,7 +213,7 @@ bool bindMesh(FrameContext& c, std::size_t i, bool general, bool instanced, Boun
     gl.BindTextures(0, 5, m.texture.data());
     gl.BindSamplers(0, 5, m.sampler.data());
   }
-  bound = {mesh, &m, wanted};
+  bound = {mesh, vertices, &m, wanted};
   return true;
 }
 

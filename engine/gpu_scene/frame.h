@@ -104,6 +104,7 @@ Result<void> uploadDraws(FrameContext& context);
 /// start each pass with an empty one.
 struct BoundInstance {
   const GpuMesh* mesh = nullptr;
+  GLuint vertices = 0;  ///< the mesh's, or the instance's own deformed ones
   const MaterialBinding* material = nullptr;
   const gl::VertexArray* array = nullptr;
 };

@@ -62,6 +62,7 @@ Result<std::unique_ptr<GpuMesh>> uploadMesh(gl::Device& device, const Mesh& mesh
     if (!buffer) return fail(buffer.error());
     gpu->extras = std::move(*buffer);
   }
+  gpu->vertexCount = int(vertices.size());
   gpu->indexCount = int(mesh.indices.size());
   Result<gl::Buffer> indexBuffer;
   if (mesh.positions.size() <= 65535) {
@@ -78,6 +79,12 @@ Result<std::unique_ptr<GpuMesh>> uploadMesh(gl::Device& device, const Mesh& mesh
 
 }  // namespace
 
+Result<Mesh> preparedMesh(const Mesh& mesh, bool tangents, Report& report) {
+  Result<Mesh> valid = validated(mesh, report);
+  if (valid && tangents && valid->tangents.empty() && !valid->uv0.empty()) makeTangents(*valid);
+  return valid;
+}
+
 const GpuMesh* GpuScene::mesh(const Scene& scene, Id<Mesh> id, bool tangents, Report& report) {
   const Mesh* m = scene.meshes.get(id);
   if (!m) return nullptr;
@@ -86,13 +93,12 @@ const GpuMesh* GpuScene::mesh(const Scene& scene, Id<Mesh> id, bool tangents, Re
   if (row.revision == scene.meshes.revision(id) && !lacking) return row.mesh.get();
   if (!admit(m->positions.size() * (GpuMesh::kStride + (m->uv1.empty() && m->colors.empty() ? 0 : GpuMesh::kExtraStride)) + m->indices.size() * 4)) return nullptr;
   row = {scene.meshes.revision(id), id.generation, nullptr};
-  Result<Mesh> valid = validated(*m, report);
+  Result<Mesh> valid = preparedMesh(*m, tangents, report);
   if (!valid) {
     report.warn(valid.error().place, valid.error().what + ": it is not drawn");
     return nullptr;
   }
   if (valid->indices.empty()) return nullptr;
-  if (tangents && valid->tangents.empty() && !valid->uv0.empty()) makeTangents(*valid);
   auto uploaded = uploadMesh(device_, *valid);
   if (!uploaded) {
     report.warn(uploaded.error().place, uploaded.error().what + ": it is not drawn");
@@ -100,6 +106,8 @@ const GpuMesh* GpuScene::mesh(const Scene& scene, Id<Mesh> id, bool tangents, Re
   }
   row.mesh = std::move(*uploaded);
   row.mesh->tangents = tangents || !m->tangents.empty();
+  row.mesh->madeTangents = tangents;
+  row.mesh->serial = ++meshSerial_;
   return row.mesh.get();
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "gl/objects.h"
+#include "gpu_scene/deformation.h"
 #include "gpu_scene/layout.h"
 
 namespace burnish::gpu_scene {
@@ -18,8 +19,14 @@ struct GpuMesh {
   int indexCount = 0;
   GLenum indexType = GL_UNSIGNED_SHORT;
   bool tangents = false;
+  bool madeTangents = false;    ///< preparedMesh was asked for them
+  int vertexCount = 0;
+  std::uint64_t serial = 0;     ///< tells uploads apart
   static constexpr int kStride = 36, kExtraStride = 16;
 };
+
+/// The mesh as it is uploaded: validated, with tangents where they are asked for and can be made (which may split vertices).
+Result<Mesh> preparedMesh(const Mesh& mesh, bool tangents, Report& report);
 
 /// A map B of a material that packs occlusion (plan::packsOcclusion) holds normal x, normal y, occlusion, roughness.
 /// What an instance is drawn with; textures that have not arrived are their 1x1 defaults.
@@ -50,6 +57,10 @@ class GpuScene {
   /// Only called when the plan lights by it or shows it.
   Result<const GpuEnvironment*> environment(const Scene& scene, Report& report);
 
+  [[nodiscard]] Deformation& deformation() { return deformation_; }
+  /// Whether so many bytes may be uploaded in this frame; they count as uploaded then.
+  [[nodiscard]] bool admit(std::uint64_t bytes);
+
   [[nodiscard]] std::uint64_t uploadedBytes() const { return uploaded_; }  ///< in this frame
   [[nodiscard]] std::uint64_t pending() const { return pending_; }         ///< resources refused in this frame
 
@@ -70,7 +81,6 @@ class GpuScene {
     MaterialBinding binding;
     bool complete = false;  // every texture has arrived
   };
-  [[nodiscard]] bool admit(std::uint64_t bytes);
   void sweep(const Scene& scene);
   Result<void> updateMaterials(const Scene& scene, Report& report);
   const TextureRow* texture(const Scene& scene, Id<Texture> id, Report& report);
@@ -93,6 +103,8 @@ class GpuScene {
   std::unique_ptr<GpuEnvironment> environment_;
   std::uint64_t environmentRevision_ = 0;
   std::uint64_t meshesRevision_ = 0, texturesRevision_ = 0, materialsRevision_ = ~0ull;
+  Deformation deformation_;
+  std::uint64_t meshSerial_ = 0;
   std::uint64_t budget_ = 0, uploaded_ = 0, pending_ = 0;
 };
 

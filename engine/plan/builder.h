@@ -33,6 +33,7 @@ std::span<const Step> steps();
 // Steps, by file.
 // passes_geometry.cpp
 void addHostDepth(Builder& b);
+void addDeformation(Builder& b);
 void addGBuffer(Builder& b);
 void addForward(Builder& b);
 void addEmissive(Builder& b);

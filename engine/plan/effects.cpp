@@ -10,6 +10,7 @@ namespace {
 constexpr std::string_view kNotShown = "the debug view does not show it";
 
 Verdict geometry(const Situation& s) { return sceneCalls(s, Call::Geometry, "no visible instance"); }
+Verdict deformation(const Situation& s) { return sceneCalls(s, Call::Deformation, "an instance with a skin or morph weights would call for it"); }
 Verdict twoSided(const Situation& s) { return sceneCalls(s, Call::TwoSided, "a two-sided material would call for it"); }
 Verdict alphaTest(const Situation& s) { return sceneCalls(s, Call::AlphaTest, "a material with an alpha test would call for it"); }
 
@@ -74,6 +75,7 @@ Verdict nonfiniteCount(const Situation& s) { return asked(s.options.countNonfini
 
 constexpr EffectRow kRows[] = {
     {{"geometry", CalledBy::Scene, "instances in the G-buffer"}, geometry},
+    {{"deformation", CalledBy::Scene, "skins and morph targets"}, deformation},
     {{"two_sided", CalledBy::Scene, "surfaces seen from both sides"}, twoSided},
     {{"alpha_test", CalledBy::Scene, "holes where opacity is under the cutoff"}, alphaTest},
     {{"baked_occlusion", CalledBy::Scene, "occlusion maps"}, bakedOcclusion},

@@ -3,6 +3,12 @@
 
 namespace burnish::plan {
 
+void addDeformation(Builder& b) {
+  if (!b.s.on("deformation")) return;
+  PassPlan& pass = b.pass("deform", {"deformation"}, {"meshes", "skins"}, {"deformed vertices"});
+  for (const DeformVariant& v : b.s.facts.deformVariants) b.use(pass, deformProgram(v));
+}
+
 void addHostDepth(Builder& b) {
   if (!b.s.on("host_depth_in") || b.s.forward()) return;
   PassPlan& pass = b.pass("depth_in", {"host_depth_in"}, {"host depth"}, {"depth"});

@@ -19,6 +19,10 @@ void addBatch(const Scene& scene, const scene::VisibleInstance& seen, bool insta
   variant.instanced = instanced;
   if (quality.occlusion == Occlusion::None) variant.occlusionMap = variant.packed = false;
   facts.call(Call::Geometry, "instance", seen.instance->name, "");
+  if (seen.pose) {
+    facts.call(Call::Deformation, "instance", seen.instance->name, seen.pose->skinned ? " has a skin" : " has morph weights");
+    facts.deformVariants.insert({seen.pose->skinned, seen.pose->morphed});
+  }
   if (material.twoSided) facts.call(Call::TwoSided, "material", material.name, " is two-sided");
   if (variant.occlusionMap) facts.call(Call::BakedOcclusion, "material", material.name, " has an occlusion map");
   if (variant.alphaTest) facts.call(Call::AlphaTest, "material", material.name, " is alpha tested");

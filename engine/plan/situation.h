@@ -23,12 +23,13 @@ void look(const Scene& scene, const scene::Derived& derived, const View& view, g
 void lookEverywhere(const Scene& scene, const scene::Derived& derived, const View& view, glm::ivec2 targetSize, const Quality& quality, Report& report, Seen& out);
 
 /// What a scene holds that effects are called by.
-enum class Call : std::uint8_t { Geometry, TwoSided, AlphaTest, BakedOcclusion, Emissive, Directional, Local, Environment, Background, Count };
+enum class Call : std::uint8_t { Geometry, Deformation, TwoSided, AlphaTest, BakedOcclusion, Emissive, Directional, Local, Environment, Background, Count };
 struct Facts {
   std::array<std::string, std::size_t(Call::Count)> why;  ///< the first thing that calls; empty: nothing does
   int directionalLights = 0, localLights = 0;
   bool spots = false;
   std::set<GeometryVariant> variants, emissiveVariants;
+  std::set<DeformVariant> deformVariants;
 
   [[nodiscard]] bool has(Call call) const { return !why[std::size_t(call)].empty(); }
   /// Keeps the first caller: an object of that kind and name, and why it calls.

@@ -24,6 +24,18 @@ bool packsOcclusion(const Material& m) { return m.mapB && m.mapC && m.occlusionS
 
 bool emits(const Material& m) { return m.unlit || m.emission.r > 0 || m.emission.g > 0 || m.emission.b > 0; }
 
+bool wantsTangents(const Material& m) { return m.mapB || m.anisotropy > 0; }
+
+ProgramPlan deformProgram(DeformVariant variant) {
+  ProgramPlan p;
+  p.name = "deform";
+  if (variant.morph) p.name += "+morph";
+  if (variant.skin) p.name += "+skin";
+  p.compute = "deform/deform.comp";
+  p.defines = {define("MORPH", variant.morph), define("SKIN", variant.skin)};
+  return p;
+}
+
 ProgramPlan geometryProgram(GeometryPass pass, GeometryVariant variant, bool occlusionTarget) {
   ProgramPlan p;
   p.name = pass == GeometryPass::GBuffer ? "gbuffer" : pass == GeometryPass::Emissive ? "emissive" : "pick";

@@ -18,6 +18,16 @@ bool packsOcclusion(const Material& material);
 /// Emission of any kind, unlit included.
 bool emits(const Material& material);
 
+/// The geometry passes read the mesh's tangents, or make them.
+bool wantsTangents(const Material& material);
+
+/// What a deformed instance's program does (shaders/deform).
+struct DeformVariant {
+  bool skin = false, morph = false;
+  friend auto operator<=>(const DeformVariant&, const DeformVariant&) = default;
+};
+ProgramPlan deformProgram(DeformVariant variant);
+
 /// The passes that draw geometry.
 enum class GeometryPass : std::uint8_t { GBuffer, Emissive, Pick, Forward };
 /// occlusionTarget: the frame has a third target. Not for Forward, which forwardProgram makes.

@@ -24,6 +24,7 @@ Result<void> lit(PassCall& p) {
 
 Result<void> takeHostDepth(PassCall& p) { return post::takeHostDepth(p.c, *p.target.depthIn); }
 Result<void> giveHostDepth(PassCall& p) { return post::giveHostDepth(p.c, *p.target.depthOut); }
+Result<void> deformPass(PassCall& p) { return gpu_scene::deform(p.c, p.c.visible); }
 Result<void> gbufferPass(PassCall& p) { return gbuffer::drawGBuffer(p.c); }
 Result<void> emissivePass(PassCall& p) { return gbuffer::drawEmissive(p.c); }
 Result<void> backgroundPass(PassCall& p) { return lighting::drawBackground(p.c); }
@@ -79,6 +80,7 @@ struct PassRow {
   Result<void> (*run)(PassCall&);
 };
 constexpr PassRow kPasses[] = {
+    {"deform", deformPass},
     {"depth_in", takeHostDepth},
     {"gbuffer", gbufferPass},
     {"forward", forwardPass},

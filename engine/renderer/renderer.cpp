@@ -206,13 +206,16 @@ Result<FrameStats> Renderer::render(const Scene& scene, std::span<const View> vi
   if (auto good = m.checkRequest(target, views); !good) return fail(good.error());
   const CallState callState(*m.device, m.options.hostState);
   SceneState& state = m.stateOf(scene);
-  state.derived.update(scene);
+  state.derived.update(scene, &m.report);
   m.seen.resize(views.size());
   for (std::size_t i = 0; i < views.size(); ++i) plan::look(scene, state.derived, views[i], target.size, quality, m.report, m.seen[i]);
   m.plan = plan::planOf(scene, m.seen, quality, m.device->caps, m.planOptions(target, request), nullptr);
   for (plan::Seen& seen : m.seen) {
     if (!m.plan.on("directional_lights")) seen.lights.directional.clear();
     if (!m.plan.on("local_lights")) seen.lights.local.clear();
+    if (!m.plan.on("deformation"))
+      for (scene::VisibleInstance& v : seen.instances)
+        if (v.pose) scene::makeRigid(scene, state.derived, seen.frame, v);
   }
   if (m.plan.on("forward_reference") && target.depthIn)
     return fail("target", "it brings depth, which the forward reference path cannot take in", "leave depthIn empty, or use path=deferred and rungs that are not forward-only");
@@ -222,6 +225,7 @@ Result<FrameStats> Renderer::render(const Scene& scene, std::span<const View> vi
   Result<void> done = m.programSet->prepare(m.plan);
   if (done) done = m.targets->prepare(m.plan);
   if (done) done = state.gpu.beginFrame(scene, m.options.uploadBytesPerFrame, m.report);
+  state.gpu.deformation().beginFrame(scene, false);
   m.timers->beginFrame(timingOf(request.timing));
   for (std::size_t i = 0; i < views.size() && done; ++i) done = m.renderView(state, scene, m.seen[i], target, quality, request, stats);
   m.timers->endFrame();
@@ -250,23 +254,25 @@ Result<Id<Instance>> Renderer::pick(const Scene& scene, const View& view, glm::i
   FramePlan plan;
   plan.targets = {{"pick", "R32UI", 1, 1, 4}, {"pick_depth", "DEPTH_COMPONENT32F", 1, 1, 4}};
   for (int key = 0; key < 4; ++key) plan.programs.push_back(plan::geometryProgram(plan::GeometryPass::Pick, {(key & 1) != 0, (key & 2) != 0, false}, false));
+  SceneState& state = m.stateOf(scene);
+  state.derived.update(scene, &m.report);
+  plan::Seen seen;
+  seen.frame = scene::narrowed(whole, local);
+  scene::findVisible(scene, state.derived, seen.frame, seen.instances);
+  seen.batches = scene::singles(seen.instances);  // the programs that draw ids draw one at a time
+  for (const plan::DeformVariant& v : plan::factsOf(scene, {&seen, 1}, {}).deformVariants) plan.programs.push_back(plan::deformProgram(v));
   gpu_scene::ProgramSet programs(*m.device, *m.programs);
   gpu_scene::TargetPool targets(*m.device);
   if (auto done = programs.prepare(plan); !done) return fail(done.error());
   if (auto done = targets.prepare(plan); !done) return fail(done.error());
-  SceneState& state = m.stateOf(scene);
   if (auto done = state.gpu.beginFrame(scene, 0, m.report); !done) return fail(done.error());
-  state.derived.update(scene);
-  plan::Seen seen;
-  seen.frame = scene::narrowed(whole, local);
-  scene::findVisible(scene, state.derived, seen.frame, seen.instances);
-  const std::vector<scene::Batch> batches = scene::singles(seen.instances);  // the programs that draw ids draw one at a time
   const Quality quality;
   FrameStats stats;
   FrameContext c{.device = *m.device, .plan = plan, .programs = programs, .targets = targets, .gpuScene = state.gpu, .buffers = m.buffers, .scene = scene, .quality = quality, .view = seen.frame,
-                 .visible = seen.instances, .batches = batches, .lights = seen.lights, .size = {1, 1}, .report = m.report, .stats = stats};
+                 .visible = seen.instances, .batches = seen.batches, .lights = seen.lights, .size = {1, 1}, .report = m.report, .stats = stats};
   if (auto done = gpu_scene::uploadFrameData(c, 1); !done) return fail(done.error());
   if (auto done = gpu_scene::uploadDraws(c); !done) return fail(done.error());
+  if (auto done = gpu_scene::deform(c, seen.instances); !done) return fail(done.error());
   auto framebuffer = targets.framebuffer({"pick"}, "pick_depth");
   if (!framebuffer) return fail(framebuffer.error());
   m.device->gl.BindFramebuffer(GL_FRAMEBUFFER, *framebuffer);

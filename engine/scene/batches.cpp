@@ -1,4 +1,4 @@
-// Instances that share mesh and material are drawn together.
+// Instances that share mesh and material are drawn together; deformed ones have vertices of their own.
 #include <unordered_map>
 
 #include "scene/visibility.h"
@@ -8,12 +8,13 @@ namespace {
 
 struct Key {
   const Mesh* mesh;
+  const Pose* pose;
   std::uint32_t material;
   bool flipped;
   friend bool operator==(const Key&, const Key&) = default;
 };
 struct HashKey {
-  std::size_t operator()(const Key& k) const { return std::hash<const void*>()(k.mesh) * 31 + k.material * 2 + std::size_t(k.flipped); }
+  std::size_t operator()(const Key& k) const { return (std::hash<const void*>()(k.mesh) + std::hash<const void*>()(k.pose)) * 31 + k.material * 2 + std::size_t(k.flipped); }
 };
 
 }  // namespace
@@ -32,7 +33,7 @@ std::vector<Batch> batch(std::vector<VisibleInstance>& instances) {
   bool any = false;
   for (std::uint32_t i = 0; i < instances.size(); ++i) {
     const VisibleInstance& v = instances[i];
-    const auto [at, fresh] = groups.try_emplace({v.mesh, v.instance->material.index, v.flipped}, std::uint32_t(members.size()));
+    const auto [at, fresh] = groups.try_emplace({v.mesh, v.pose, v.instance->material.index, v.flipped}, std::uint32_t(members.size()));
     if (fresh) members.emplace_back();
     groupOf[i] = at->second;
     members[at->second].push_back(i);

@@ -146,11 +146,6 @@ class Importer {
   }
 
   void animations() {
-    if (scene_.skins.size() > 0)
-      report_.warn(asset_.name, "skins are not drawn yet: meshes are shown in their bind pose");
-    bool morphs = false;
-    scene_.meshes.each([&](Id<Mesh>, const Mesh& m) { morphs = morphs || !m.targets.empty(); });
-    if (morphs) report_.warn(asset_.name, "morph targets are not drawn yet: the base shape is shown");
     for (std::size_t i = 0; i < asset_.animations.size(); ++i) {
       asset::Animation& in = asset_.animations[i];
       Animation out;

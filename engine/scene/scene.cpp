@@ -3,6 +3,7 @@
 #include <cmath>
 #include <unordered_set>
 
+#include "scene/pose.h"
 #include "scene/transforms.h"
 
 namespace burnish {
@@ -71,21 +72,30 @@ Bounds Scene::bounds() const {
   Bounds all;
   const std::vector<glm::dmat4> world = scene::worldMatrices(*this);
   std::vector<std::optional<Bounds>> meshBounds(meshes.capacity());
-  instances.each([&](Id<Instance>, const Instance& instance) {
-    const Mesh* mesh = meshes.get(instance.mesh);
-    if (!instance.visible || !mesh) return;
-    std::optional<Bounds>& b = meshBounds[instance.mesh.index];
-    if (!b) b = boundsOf(*mesh);
-    if (b->empty()) return;
-    const glm::dmat4 m = nodes.has(instance.node) ? world[instance.node.index] : glm::dmat4(1);
+  std::vector<std::optional<scene::Extents>> extents(meshes.capacity());
+  const auto add = [&all](const Bounds& b, const glm::dmat4& m) {
     for (int corner = 0; corner < 8; ++corner) {
-      const glm::dvec4 p(corner & 1 ? b->max.x : b->min.x, corner & 2 ? b->max.y : b->min.y,
-                         corner & 4 ? b->max.z : b->min.z, 1);
+      const glm::dvec4 p(corner & 1 ? b.max.x : b.min.x, corner & 2 ? b.max.y : b.min.y, corner & 4 ? b.max.z : b.min.z, 1);
       const glm::vec3 w(m * p);
       if (!std::isfinite(w.x + w.y + w.z)) continue;
       all.min = glm::min(all.min, w);
       all.max = glm::max(all.max, w);
     }
+  };
+  instances.each([&](Id<Instance>, const Instance& instance) {
+    const Mesh* mesh = meshes.get(instance.mesh);
+    if (!instance.visible || !mesh) return;
+    if (scene::deforms(*this, instance, *mesh)) {
+      std::optional<scene::Extents>& e = extents[instance.mesh.index];
+      if (!e) e = scene::extentsOf(*mesh);
+      const scene::Pose pose = scene::poseOf(*this, instance, *mesh, *e, world, nullptr);
+      if (!pose.bounds.empty()) add(pose.bounds, pose.placement);
+      return;
+    }
+    std::optional<Bounds>& b = meshBounds[instance.mesh.index];
+    if (!b) b = boundsOf(*mesh);
+    if (b->empty()) return;
+    add(*b, nodes.has(instance.node) ? world[instance.node.index] : glm::dmat4(1));
   });
   return all;
 }

@@ -8,7 +8,9 @@
 
 namespace burnish::scene {
 
-void Derived::update(const Scene& scene) {
+void Derived::update(const Scene& scene, Report* report) {
+  const bool posesStale = scene.nodes.revision() != nodesRevision_ || scene.meshes.revision() != meshesRevision_ || scene.instances.revision() != instancesRevision_ ||
+                          scene.skins.revision() != skinsRevision_;
   if (scene.nodes.revision() != nodesRevision_) {
     world_ = worldMatrices(scene);
     nodesRevision_ = scene.nodes.revision();
@@ -24,6 +26,37 @@ void Derived::update(const Scene& scene) {
     });
     meshesRevision_ = scene.meshes.revision();
   }
+  if (posesStale) updatePoses(scene, report);
+}
+
+void Derived::updatePoses(const Scene& scene, Report* report) {
+  poses_.resize(scene.instances.capacity());
+  for (std::uint32_t i = 0; i < poses_.size(); ++i) {
+    const Id<Instance> id = scene.instances.at(i);
+    const Instance* instance = scene.instances.get(id);
+    const Mesh* mesh = instance ? scene.meshes.get(instance->mesh) : nullptr;
+    if (!mesh || !deforms(scene, *instance, *mesh)) {
+      poses_[i] = nullptr;
+      continue;
+    }
+    MeshBounds& b = bounds_[instance->mesh.index];
+    if (!b.extents || b.extentsRevision != b.revision) b.extents = std::make_unique<Extents>(extentsOf(*mesh));
+    b.extentsRevision = b.revision;
+    Pose pose = poseOf(scene, *instance, *mesh, *b.extents, world_, report);
+    if (!pose.skinned && !pose.morphed)
+      poses_[i] = nullptr;  // it has a skin that does not fit
+    else if (poses_[i])
+      *poses_[i] = std::move(pose);
+    else
+      poses_[i] = std::make_unique<Pose>(std::move(pose));
+  }
+  instancesRevision_ = scene.instances.revision();
+  skinsRevision_ = scene.skins.revision();
+}
+
+const glm::dmat4& Derived::placement(Id<Instance> id, const Instance& instance) const {
+  const Pose* p = pose(id);
+  return p ? p->placement : world(instance.node);
 }
 
 const glm::dmat4& Derived::world(Id<Node> node) const {
@@ -113,15 +146,41 @@ ViewFrame narrowed(const ViewFrame& frame, glm::ivec2 pixel) {
   return f;
 }
 
+bool setPlacement(VisibleInstance& v, const glm::dmat4& placement, glm::dvec3 eye) {
+  glm::dmat4 world = placement;
+  world[3] -= glm::dvec4(eye, 0);
+  if (!finite(world)) return false;
+  const glm::dmat3 m(world);
+  const bool mirrors = glm::determinant(m) < 0;
+  // The joints turn triangles round before the placement does; the normals that come out of them look outward already.
+  v.flipped = mirrors != (v.pose && v.pose->flipped);
+  // Cofactors carry normals through any transform, singular ones included; scaled so that floats neither overflow nor vanish.
+  glm::dmat3 cofactor(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
+  const double largest = std::max({glm::length(cofactor[0]), glm::length(cofactor[1]), glm::length(cofactor[2])});
+  if (largest > 0) cofactor *= (mirrors ? -1 : 1) / largest;
+  for (int r = 0; r < 3; ++r) {
+    v.model[r] = {float(m[0][r]), float(m[1][r]), float(m[2][r]), float(world[3][r])};
+    v.normal[r] = {float(cofactor[0][r]), float(cofactor[1][r]), float(cofactor[2][r])};
+  }
+  return true;
+}
+
+void makeRigid(const Scene& scene, const Derived& derived, const ViewFrame& frame, VisibleInstance& v) {
+  v.pose = nullptr;
+  setPlacement(v, scene.nodes.has(v.instance->node) ? derived.world(v.instance->node) : glm::dmat4(1), frame.eye);
+}
+
 void findVisible(const Scene& scene, const Derived& derived, const ViewFrame& frame, std::vector<VisibleInstance>& out, Reach reach) {
   out.clear();
   const Frustum frustum(frame);
   scene.instances.each([&](Id<Instance> id, const Instance& instance) {
     const Mesh* mesh = scene.meshes.get(instance.mesh);
     if (!instance.visible || !mesh || mesh->indices.empty()) return;
-    const Bounds& bounds = derived.bounds(instance.mesh);
+    const Pose* pose = derived.pose(id);
+    const Bounds& bounds = pose ? pose->bounds : derived.bounds(instance.mesh);
     if (bounds.empty()) return;
-    glm::dmat4 world = scene.nodes.has(instance.node) ? derived.world(instance.node) : glm::dmat4(1);
+    const glm::dmat4 placement = pose ? pose->placement : scene.nodes.has(instance.node) ? derived.world(instance.node) : glm::dmat4(1);
+    glm::dmat4 world = placement;
     world[3] -= glm::dvec4(frame.eye, 0);
     if (!finite(world)) return;
     const glm::dvec3 half = (glm::dvec3(bounds.max) - glm::dvec3(bounds.min)) * 0.5, middle = (glm::dvec3(bounds.max) + glm::dvec3(bounds.min)) * 0.5;
@@ -133,17 +192,9 @@ void findVisible(const Scene& scene, const Derived& derived, const ViewFrame& fr
     v.id = id;
     v.instance = &instance;
     v.mesh = mesh;
+    v.pose = pose;
     v.distance = float(glm::length(center));
-    const double determinant = glm::determinant(m);
-    v.flipped = determinant < 0;
-    // Cofactors carry normals through any transform, singular ones included; scaled so that floats neither overflow nor vanish.
-    glm::dmat3 cofactor(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
-    const double largest = std::max({glm::length(cofactor[0]), glm::length(cofactor[1]), glm::length(cofactor[2])});
-    if (largest > 0) cofactor *= (v.flipped ? -1 : 1) / largest;
-    for (int r = 0; r < 3; ++r) {
-      v.model[r] = {float(m[0][r]), float(m[1][r]), float(m[2][r]), float(world[3][r])};
-      v.normal[r] = {float(cofactor[0][r]), float(cofactor[1][r]), float(cofactor[2][r])};
-    }
+    setPlacement(v, placement, frame.eye);
     out.push_back(v);
   });
   std::stable_sort(out.begin(), out.end(), [](const VisibleInstance& a, const VisibleInstance& b) { return a.distance < b.distance; });

@@ -3,25 +3,38 @@
 #pragma once
 #include <burnish/plan.h>
 
+#include <memory>
 #include <vector>
+
+#include "scene/pose.h"
 
 namespace burnish::scene {
 
-/// World matrices and mesh bounds of one scene, kept until the tables change.
+/// World matrices, mesh bounds and poses of one scene, kept until the tables change.
 class Derived {
  public:
-  void update(const Scene& scene);
+  /// What is mended in skins and morph weights goes into the report, if there is one.
+  void update(const Scene& scene, Report* report = nullptr);
   [[nodiscard]] const glm::dmat4& world(Id<Node> node) const;
   [[nodiscard]] const Bounds& bounds(Id<Mesh> mesh) const { return bounds_[mesh.index].bounds; }
+  /// How the instance is deformed; nullptr: it is rigid.
+  [[nodiscard]] const Pose* pose(Id<Instance> instance) const { return instance.index < poses_.size() ? poses_[instance.index].get() : nullptr; }
+  /// Where the instance's vertices (deformed ones, where it has a pose) stand: their space to the world.
+  [[nodiscard]] const glm::dmat4& placement(Id<Instance> id, const Instance& instance) const;
 
  private:
+  void updatePoses(const Scene& scene, Report* report);
+
   struct MeshBounds {
     std::uint64_t revision = 0;
     Bounds bounds;
+    std::uint64_t extentsRevision = 0;
+    std::unique_ptr<Extents> extents;  // only of meshes that are deformed
   };
   std::vector<glm::dmat4> world_;
   std::vector<MeshBounds> bounds_;
-  std::uint64_t nodesRevision_ = ~0ull, meshesRevision_ = ~0ull;
+  std::vector<std::unique_ptr<Pose>> poses_;  // by instance
+  std::uint64_t nodesRevision_ = ~0ull, meshesRevision_ = ~0ull, instancesRevision_ = ~0ull, skinsRevision_ = ~0ull;
 };
 
 /// The view's geometry in numbers that passes and culling share.
@@ -60,11 +73,16 @@ struct VisibleInstance {
   Id<Instance> id;
   const Instance* instance = nullptr;
   const Mesh* mesh = nullptr;
+  const Pose* pose = nullptr;  ///< how it is deformed; nullptr: it is rigid. Lives until the scene's tables change.
   glm::vec4 model[3];   ///< rows: object to camera-relative world
   glm::vec3 normal[3];  ///< rows of the cofactor matrix, times the sign of the determinant
   bool flipped = false;  ///< the transform mirrors
   float distance = 0;   ///< from the eye to the centre of the bounds, metres
 };
+/// Sets model, normal and flipped from where the instance's vertices stand in the world; false when that is not finite.
+bool setPlacement(VisibleInstance& instance, const glm::dmat4& world, glm::dvec3 eye);
+/// Takes the pose away: the mesh as it is, at the instance's node.
+void makeRigid(const Scene& scene, const Derived& derived, const ViewFrame& frame, VisibleInstance& instance);
 /// Instances whose bounds meet the frustum, sorted by distance. Non-finite transforms are left out.
 void findVisible(const Scene& scene, const Derived& derived, const ViewFrame& frame, std::vector<VisibleInstance>& out, Reach reach = Reach::InView);
 

@@ -7,6 +7,13 @@
 #define BINDING_DRAW 1
 #define BINDING_MATERIAL 2
 
+// Storage blocks
+#define STORAGE_DEFORM_SOURCE 0
+#define STORAGE_DEFORM_RESULT 1
+#define STORAGE_DEFORM_JOINTS 2
+#define STORAGE_DEFORM_TARGETS 3
+#define DEFORM_GROUP 64  // vertices of a work group
+
 // Texture units
 #define UNIT_MAP_A 0
 #define UNIT_MAP_B 1
@@ -24,6 +31,7 @@
 #define UNIT_LIGHT_BUFFER 8
 #define UNIT_FORWARD_ENVIRONMENT 8  // unit 4 is the emissive map's on the forward path
 #define UNIT_EXPOSURE 9
+#define UNIT_POSE 0
 
 // Vertex attributes
 #define ATTRIBUTE_POSITION 0

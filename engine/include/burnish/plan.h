@@ -66,6 +66,7 @@ struct ProgramPlan {
   std::string name;               ///< "gbuffer", "gbuffer+alpha", "lighting/tile4", ...
   std::string vertex, fragment;   ///< shader files, "lighting/tile.frag"
   std::vector<std::string> defines;  ///< "NAME value", sorted
+  std::string compute;               ///< in place of the two other files
   friend bool operator==(const ProgramPlan&, const ProgramPlan&) = default;
 };
 
