@@ -84,12 +84,12 @@ class Help(Program):
     def test_scene_options_are_in_help(self):
         for name in "render", "plan":
             text = self.good(name, "--help").stdout
-            for option in "--camera --eye --target --up --fov --size --env --exposure --quality --set --tonemap --backend --threads --json".split():
+            for option in "--camera --eye --target --up --fov --time --animation --size --env --exposure --quality --set --tonemap --backend --threads --json".split():
                 self.assertIn(option, text)
 
     def test_what_does_not_work_yet_is_not_in_help(self):
         texts = "".join(self.good(*words, "--help").stdout for words in [[]] + [[name] for name in SUBCOMMANDS])
-        for later in "--probes --time bake prefilter reference".split():
+        for later in "--probes bake prefilter reference".split():
             self.assertNotRegex(texts, rf"(?<![\w-]){later}(?![\w-])")
 
     def test_help_costs_little(self):
