@@ -57,6 +57,19 @@ Result<GLuint> TargetPool::framebuffer(std::initializer_list<std::string_view> c
   return id;
 }
 
+Result<GLuint> TargetPool::levelFramebuffer(std::string_view color, int level) {
+  const std::string key = fmt::format("{} level {}", color, level);
+  if (const auto found = framebuffers_.find(key); found != framebuffers_.end()) return found->second.id();
+  const gl::Texture* t = texture(color);
+  if (!t) return fail("frame plan", fmt::format("target '{}' is not in it", color), "report this as a fault of the engine");
+  const gl::Attachment attachment(*t, level);
+  auto made = gl::Framebuffer::create(device_, {&attachment, 1}, std::nullopt, key);
+  if (!made) return fail(made.error());
+  const GLuint id = made->id();
+  framebuffers_.emplace(key, std::move(*made));
+  return id;
+}
+
 gl::ProgramSource sourceOf(const ProgramPlan& p) { return {p.name, p.vertex, p.fragment, p.compute, p.defines}; }
 
 Result<void> ProgramSet::prepare(const FramePlan& plan) {

@@ -25,6 +25,8 @@ class TargetPool {
   [[nodiscard]] const gl::Texture* texture(std::string_view name) const;
   /// A framebuffer of the named targets (colours in order; depth optional), made on first use.
   Result<GLuint> framebuffer(std::initializer_list<std::string_view> colors, std::string_view depth = {});
+  /// A framebuffer of one mip level of a target that the plan lists.
+  Result<GLuint> levelFramebuffer(std::string_view color, int level);
 
  private:
   struct Entry {

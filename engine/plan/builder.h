@@ -45,7 +45,9 @@ void addBackground(Builder& b);
 void addHostDraw(Builder& b);
 void addExposure(Builder& b);
 void addNonfiniteCount(Builder& b);
+void addBloom(Builder& b);
 void addToneMapping(Builder& b);
+void addEdgeAntialiasing(Builder& b);
 void addDebugView(Builder& b);
 void addDepthOut(Builder& b);
 

@@ -59,6 +59,18 @@ Verdict toneMapping(const Situation& s) {
   if (s.options.output != Output::Display) return {false, "the output is linear"};
   return {true, fmt::format("tone map '{}'", toneMapNames()[std::size_t(s.quality.toneMap)])};
 }
+Verdict bloom(const Situation& s) {
+  if (s.quality.bloom == Bloom::None) return {false, "bloom=scatter would call for it"};
+  if (s.options.debugView != DebugView::Final) return {false, "the debug view does not need it"};
+  if (s.options.output == Output::Linear) return {false, "linear output is what reaches the lens, not what the lens scatters"};
+  return {true, "bloom=scatter"};
+}
+Verdict edgeAntialiasing(const Situation& s) {
+  if (s.quality.antialiasing != Antialiasing::Edge) return {false, "antialiasing=edge would call for it"};
+  if (s.options.debugView != DebugView::Final) return {false, "the debug view does not need it"};
+  if (s.options.output == Output::Linear) return {false, "linear output has no display values to find edges in"};
+  return {true, "antialiasing=edge"};
+}
 Verdict linearOutput(const Situation& s) {
   const bool on = s.options.output == Output::Linear && s.options.debugView == DebugView::Final;
   return {on, on ? "radiance is asked for" : "a request for linear output would call for it"};
@@ -86,7 +98,9 @@ constexpr EffectRow kRows[] = {
     {{"background", CalledBy::Scene, "the surroundings where nothing was drawn"}, background},
     {{"forward_reference", CalledBy::Setting, "surfaces shaded where they are drawn, unquantised"}, forwardReference},
     {{"auto_exposure", CalledBy::Setting, "exposure metered from the picture"}, autoExposure},
+    {{"bloom", CalledBy::Setting, "light that scatters in the lens"}, bloom},
     {{"tone_mapping", CalledBy::Setting, "radiance developed for a display"}, toneMapping},
+    {{"edge_antialiasing", CalledBy::Setting, "edges smoothed in the developed picture"}, edgeAntialiasing},
     {{"linear_output", CalledBy::Setting, "radiance in cd/m2, not developed"}, linearOutput},
     {{"debug_view", CalledBy::Setting, "a buffer in place of the picture"}, debugView},
     {{"host_depth_in", CalledBy::Setting, "the host's depth occludes the scene"}, hostDepthIn},

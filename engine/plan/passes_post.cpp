@@ -1,4 +1,5 @@
 // From the light buffer to the target.
+#include "plan/bloom.h"
 #include "plan/builder.h"
 
 namespace burnish::plan {
@@ -17,15 +18,31 @@ void addNonfiniteCount(Builder& b) {
   if (b.s.on("nonfinite_count")) b.pass("nonfinite_count", {"nonfinite_count"}, {"light"}, {});
 }
 
+void addBloom(Builder& b) {
+  if (!b.s.on("bloom")) return;
+  PassPlan& pass = b.pass("bloom", {"bloom"}, {"light"}, {"bloom"});
+  b.target("bloom", "RGBA16F", {"bloom"}, bloomSize(b.s.options.size), bloomLevels(b.s.options.size.y));
+  for (const char* name : {"bloom_first", "bloom_down", "bloom_up"}) b.useScreen(pass, name, std::string("post/") + name + ".frag", {});
+}
+
 void addToneMapping(Builder& b) {
   const Situation& s = b.s;
   if (!s.on("tone_mapping") && !s.on("linear_output")) return;
   const bool automatic = s.on("auto_exposure"), host = s.on("host_depth_in"), linear = s.options.output == Output::Linear;
-  PassPlan& pass = b.pass("tonemap", {"tone_mapping", "linear_output", "host_depth_in"}, {"light"}, {"target"});
+  const bool bloom = s.on("bloom"), edges = s.on("edge_antialiasing");
+  PassPlan& pass = b.pass("tonemap", {"tone_mapping", "linear_output", "host_depth_in"}, {"light"}, {edges ? "display" : "target"});
+  if (edges) b.target("display", "RGBA8", {"edge_antialiasing"});
+  if (bloom) pass.reads.emplace_back("bloom");
   if (automatic) pass.reads.push_back("exposure");
   if (host) pass.reads.insert(pass.reads.end(), {"gbuffer_b", "depth"});
   b.useScreen(pass, "tonemap", "post/tonemap.frag",
-              {define("AUTO_EXPOSURE", automatic), define("HOST_DEPTH", host), define("LINEAR", linear), define("TONEMAP", linear ? 0 : int(s.quality.toneMap))});
+              {define("AUTO_EXPOSURE", automatic), define("BLOOM", bloom), define("DISPLAY_LUMA", edges), define("HOST_DEPTH", host), define("LINEAR", linear),
+               define("TONEMAP", linear ? 0 : int(s.quality.toneMap))});
+}
+
+void addEdgeAntialiasing(Builder& b) {
+  if (!b.s.on("edge_antialiasing")) return;
+  b.useScreen(b.pass("edge_antialiasing", {"edge_antialiasing"}, {"display"}, {"target"}), "edge_antialiasing", "post/edge_antialiasing.frag", {define("HOST_DEPTH", b.s.on("host_depth_in"))});
 }
 
 void addDebugView(Builder& b) {

@@ -105,6 +105,15 @@ constexpr Rung kPath[] = {
     {"forward", "each surface where it is drawn, every light: unquantised reference", "docs/shading.md, section 4"},
 };
 
+constexpr Rung kAntialiasing[] = {
+    {"none", "one sample a pixel", "the term left out"},
+    {"edge", "edges found in the developed picture and smoothed along their length", "Lottes 2009, FXAA; Reshetov 2009, Morphological Antialiasing"},
+};
+constexpr Rung kBloom[] = {
+    {"none", "no light scatters", "the term left out"},
+    {"scatter", "a share of all light, spread by a pyramid of B-splines; none is lost or added", "Burt and Adelson 1983; Jimenez 2014, Next Generation Post Processing in Call of Duty"},
+};
+
 constexpr Term kTerms[] = {
     {"specular", "the specular model", kSpecular},
     {"distribution", "how microfacet normals are distributed (specular=microfacet)", kDistribution},
@@ -120,6 +129,8 @@ constexpr Term kTerms[] = {
     {"specular-occlusion", "ambient occlusion on reflections of the surroundings", kSpecularOcclusion},
     {"direct-occlusion", "ambient occlusion on the highlights of lights", kDirectOcclusion},
     {"path", "where surfaces are shaded", kPath},
+    {"antialiasing", "edges of the picture", kAntialiasing, true},
+    {"bloom", "light that scatters in the lens", kBloom, true},
 };
 
 // One place that knows which member each term is.
@@ -139,7 +150,9 @@ auto withMember(Q& q, std::size_t term, F&& f) {
     case 10: return f(q.occlusion);
     case 11: return f(q.specularOcclusion);
     case 12: return f(q.directOcclusion);
-    default: return f(q.path);
+    case 13: return f(q.path);
+    case 14: return f(q.antialiasing);
+    default: return f(q.bloom);
   }
 }
 
@@ -203,6 +216,9 @@ Result<void> setPreset(Quality& quality, std::string_view name) {
   q.toneMap = quality.toneMap;
   q.exposureEv = quality.exposureEv;
   q.lightThreshold = quality.lightThreshold;
+  q.antialiasing = quality.antialiasing;
+  q.bloom = quality.bloom;
+  q.bloomShare = quality.bloomShare;
   quality = q;
   return {};
 }

@@ -1,24 +1,16 @@
 #include "post/post_pass.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
+
+#include "post/bloom.h"
+#include "post/screen.h"
 
 namespace burnish::post {
 namespace {
 
 using gpu_scene::FrameContext;
-
-// Plain full-screen state on a framebuffer.
-void begin(FrameContext& c, GLuint framebuffer) {
-  const GladGLContext& gl = c.device.gl;
-  gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-  c.setViewport();
-  gl.Disable(GL_DEPTH_TEST);
-  gl.BindSamplers(0, 10, nullptr);
-}
-
-void bindIfThere(FrameContext& c, std::string_view target, GLuint unit) {
-  if (const gl::Texture* t = c.targets.texture(target)) t->bind(unit);
-}
 
 Result<void> drawDepth(FrameContext& c, std::string_view name, const HostDepth& host) {
   const GladGLContext& gl = c.device.gl;
@@ -37,7 +29,7 @@ Result<void> drawDepth(FrameContext& c, std::string_view name, const HostDepth& 
 Result<void> measureExposure(FrameContext& c) {
   auto framebuffer = c.targets.framebuffer({"exposure"});
   if (!framebuffer) return fail(framebuffer.error());
-  begin(c, *framebuffer);
+  beginScreen(c, *framebuffer);
   c.device.gl.Viewport(0, 0, 1, 1);
   c.device.gl.Scissor(0, 0, 1, 1);
   bindIfThere(c, "light", UNIT_LIGHT_BUFFER);
@@ -51,16 +43,35 @@ float readExposure(FrameContext& c) {
 }
 
 Result<void> drawTonemap(FrameContext& c, GLuint framebuffer) {
-  begin(c, framebuffer);
+  if (c.targets.texture("display")) {
+    auto display = c.targets.framebuffer({"display"});
+    if (!display) return fail(display.error());
+    framebuffer = *display;
+  }
+  beginScreen(c, framebuffer);
   bindIfThere(c, "light", UNIT_LIGHT_BUFFER);
   bindIfThere(c, "exposure", UNIT_EXPOSURE);
   bindIfThere(c, "gbuffer_b", UNIT_GBUFFER_B);
   bindIfThere(c, "depth", UNIT_DEPTH);
+  if (const gl::Texture* bloom = c.targets.texture("bloom")) {
+    bloom->bind(UNIT_BLOOM);
+    const glm::ivec2 size = scatteredSize(c, 0);
+    if (const gl::Program* program = c.programs.find("tonemap")) c.device.gl.ProgramUniform3f(program->id(), 0, scatteredShare(c), float(size.x) - 0.5f, float(size.y) - 0.5f);
+  }
   return c.drawScreen("tonemap");
 }
 
+Result<void> smoothEdges(FrameContext& c, GLuint framebuffer) {
+  beginScreen(c, framebuffer);
+  const gl::Texture& display = *c.targets.texture("display");
+  c.device.gl.TextureParameteri(display.id(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  c.device.gl.TextureParameteri(display.id(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  display.bind(UNIT_DISPLAY);
+  return c.drawScreen("edge_antialiasing");
+}
+
 Result<void> drawDebugView(FrameContext& c, GLuint framebuffer) {
-  begin(c, framebuffer);
+  beginScreen(c, framebuffer);
   bindIfThere(c, "gbuffer_a", UNIT_GBUFFER_A);
   bindIfThere(c, "gbuffer_b", UNIT_GBUFFER_B);
   bindIfThere(c, "gbuffer_c", UNIT_GBUFFER_C);
@@ -77,13 +88,15 @@ std::uint64_t countNonfinite(FrameContext& c) {
   c.device.gl.GetTextureSubImage(light->id(), 0, v.x, v.y, 0, v.z, v.w, 1, GL_RGBA, GL_FLOAT, GLsizei(pixels.size() * sizeof(glm::vec4)), pixels.data());
   std::uint64_t count = 0;
   for (const glm::vec4& p : pixels) count += !(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
+  // What spreads light says that it let none of these through.
+  if (count > 0 && c.plan.on("bloom")) c.report.warn("bloom", fmt::format("{} pixels of the light buffer are not finite: they scatter nothing (view 'nonfinite' shows them)", count));
   return count;
 }
 
 Result<void> takeHostDepth(FrameContext& c, const HostDepth& host) {
   auto framebuffer = c.targets.framebuffer({}, "depth");
   if (!framebuffer) return fail(framebuffer.error());
-  begin(c, *framebuffer);
+  beginScreen(c, *framebuffer);
   c.device.gl.BindTextureUnit(UNIT_DEPTH, host.texture);
   return drawDepth(c, "depth_in", host);
 }
@@ -94,7 +107,7 @@ Result<void> giveHostDepth(FrameContext& c, const HostDepth& host) {
   attachment.format = GL_DEPTH_COMPONENT32F;
   auto framebuffer = gl::Framebuffer::create(c.device, {}, attachment, "host depth");
   if (!framebuffer) return fail("target depth", "cannot be drawn to: " + framebuffer.error().what, "give a 2D depth texture of the target's size");
-  begin(c, framebuffer->id());
+  beginScreen(c, framebuffer->id());
   bindIfThere(c, "depth", UNIT_DEPTH);
   return drawDepth(c, "depth_out", host);
 }

@@ -6,6 +6,7 @@
 
 #include "gbuffer/geometry_pass.h"
 #include "gl/host_state.h"
+#include "post/bloom.h"
 #include "post/post_pass.h"
 
 namespace burnish {
@@ -62,7 +63,9 @@ Result<void> nonfiniteCountPass(PassCall& p) {
   if (p.c.plan.on("auto_exposure")) p.c.stats.exposureEv = post::readExposure(p.c);
   return {};
 }
+Result<void> bloomPass(PassCall& p) { return post::scatter(p.c); }
 Result<void> tonemapPass(PassCall& p) { return post::drawTonemap(p.c, p.target.framebuffer); }
+Result<void> edgeAntialiasingPass(PassCall& p) { return post::smoothEdges(p.c, p.target.framebuffer); }
 Result<void> debugViewPass(PassCall& p) {
   if (p.request.debugView != DebugView::Lights) return post::drawDebugView(p.c, p.target.framebuffer);
   const GladGLContext& gl = p.c.device.gl;
@@ -91,7 +94,9 @@ constexpr PassRow kPasses[] = {
     {"host_draw", hostDrawPass},
     {"exposure", exposurePass},
     {"nonfinite_count", nonfiniteCountPass},
+    {"bloom", bloomPass},
     {"tonemap", tonemapPass},
+    {"edge_antialiasing", edgeAntialiasingPass},
     {"debug_view", debugViewPass},
     {"depth_out", giveHostDepth},
 };

@@ -32,6 +32,8 @@
 #define UNIT_FORWARD_ENVIRONMENT 8  // unit 4 is the emissive map's on the forward path
 #define UNIT_EXPOSURE 9
 #define UNIT_POSE 0
+#define UNIT_BLOOM 0
+#define UNIT_DISPLAY 0
 
 // Vertex attributes
 #define ATTRIBUTE_POSITION 0

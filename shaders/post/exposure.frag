@@ -16,10 +16,12 @@ void main() {
       // What a picture is of stands mostly in its middle: the corners weigh 5 % of the centre.
       float weight = exp2(-8.6 * dot(unit - 0.5, unit - 0.5));
       vec3 c = texelFetch(lightBuffer, ivec2(at), 0).rgb;
+      // What is no number, or infinite, would turn the whole picture black: it is not metered.
+      if (any(isnan(c)) || any(isinf(c))) weight = 0.0, c = vec3(0.0);
       total += weight;
       sum += weight * log2(max(dot(c, vec3(0.2126, 0.7152, 0.0722)) * frame.exposure.y, 1e-6));
     }
   // EV100 = log2(L S / K), S = 100, K = 12.5; saturation luminance 1.2 · 2^EV (Lagarde and de Rousiers 2014, section 5.1).
-  float ev = clamp(sum / total + 3.0, -16.0, 24.0);
+  float ev = clamp(sum / max(total, 1e-6) + 3.0, -16.0, 24.0);
   outExposure = vec2(frame.exposure.y / (1.2 * exp2(ev)), ev);
 }

@@ -1,9 +1,11 @@
 // Develops the light buffer: exposure, tone curve, sRGB. Definitions: TONEMAP (0 none, 1 Neutral, 2 AgX, 3 ACES), AUTO_EXPOSURE, LINEAR (1: radiance as it is, in cd/m²),
-// HOST_DEPTH (1: pixels that the host's own geometry covers are left alone).
+// HOST_DEPTH (1: pixels that the host's own geometry covers are left alone), BLOOM (a share of the light is replaced by what the lens scatters),
+// DISPLAY_LUMA (1: for the pass "edge_antialiasing": alpha holds the luma, 0 where the host's geometry is).
 #include "shading/bridge.h"
 #include "shading/constants.h"
 #include "shading/tonemap.h"
 #include "interface/layout.h"
+#include "interface/radiance.glsl"
 layout(std140, binding = BINDING_FRAME) uniform Frame { FrameData frame; };
 layout(binding = UNIT_LIGHT_BUFFER) uniform sampler2D lightBuffer;
 #if AUTO_EXPOSURE
@@ -13,15 +15,34 @@ layout(binding = UNIT_EXPOSURE) uniform sampler2D exposureValue;
 layout(binding = UNIT_GBUFFER_B) uniform sampler2D gbufferB;
 layout(binding = UNIT_DEPTH) uniform sampler2D gbufferDepth;
 #endif
+#if BLOOM
+layout(binding = UNIT_BLOOM) uniform sampler2D bloom;
+layout(location = 0) uniform vec3 scattered;  // share; the middles of the view's last texels
+#endif
 layout(location = 0) out vec4 outColor;
 
 void main() {
 #if HOST_DEPTH
   // The G-buffer is cleared to ones, which is no normal: drawn depth without a normal is the host's.
   ivec2 q = ivec2(gl_FragCoord.xy);
-  if (texelFetch(gbufferDepth, q, 0).r > 0.0 && texelFetch(gbufferB, q, 0).rgb == vec3(1.0)) discard;
+  if (texelFetch(gbufferDepth, q, 0).r > 0.0 && texelFetch(gbufferB, q, 0).rgb == vec3(1.0)) {
+#if DISPLAY_LUMA
+    outColor = vec4(0.0);
+    return;
+#else
+    discard;
+#endif
+  }
 #endif
   vec3 c = texelFetch(lightBuffer, ivec2(gl_FragCoord.xy), 0).rgb;
+#if !LINEAR
+  // Added emission may have passed the largest half float: infinity would be no number in the curves below.
+  c = limitRadiance(c, 65504.0);
+#endif
+#if BLOOM
+  vec2 at = clamp((gl_FragCoord.xy - vec2(frame.viewport.xy)) * 0.5, vec2(0.5), scattered.yz);
+  c = mix(c, textureLod(bloom, at / vec2(textureSize(bloom, 0)), 0.0).rgb, scattered.x);
+#endif
 #if LINEAR
   outColor = vec4(c * frame.exposure.y, 1.0);
 #else
@@ -40,5 +61,8 @@ void main() {
   c = tonemapNone(c);
 #endif
   outColor = vec4(srgbFromLinearFast(c.r), srgbFromLinearFast(c.g), srgbFromLinearFast(c.b), 1.0);
+#if DISPLAY_LUMA
+  outColor.a = (1.0 + 254.0 * dot(outColor.rgb, vec3(0.299, 0.587, 0.114))) / 255.0;
+#endif
 #endif
 }

@@ -107,7 +107,7 @@ void measure(Stage& s, const Quality& baseline, std::vector<Row>& rows, int roun
 std::vector<Row> rowsOver(const Quality& baseline, const std::string& only) {
   std::vector<Row> rows;
   for (std::size_t t = 0; t < terms().size(); ++t) {
-    if (!only.empty() && only != terms()[t].name) continue;
+    if (terms()[t].picture || (!only.empty() && only != terms()[t].name)) continue;
     for (std::size_t r = 0; r < terms()[t].rungs.size(); ++r) {
       Row row{t, r, baseline, {}, {}};
       setRung(row.quality, t, r);

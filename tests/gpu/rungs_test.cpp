@@ -55,6 +55,10 @@ const std::map<std::string, const char*> kElsewhere = {
     {"direct-occlusion=specular", "a factor in the lighting pass (tests/render)"},
     {"path=deferred", "passes (tests/render)"},
     {"path=forward", "passes (tests/render)"},
+    {"antialiasing=none", "the term left out"},
+    {"antialiasing=edge", "a pass (tests/render)"},
+    {"bloom=none", "the term left out"},
+    {"bloom=scatter", "a pass (tests/render)"},
 };
 
 }  // namespace

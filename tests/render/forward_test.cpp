@@ -200,7 +200,8 @@ TEST_CASE("forward and deferred agree: a sample of rungs") {
   for (std::size_t row = 0; row < 11; ++row) {
     Quality quality;
     std::string what = fmt::format("row {}:", row);
-    for (std::size_t t = 0; t + 1 < terms().size(); ++t) {
+    for (std::size_t t = 0; t < terms().size(); ++t) {
+      if (terms()[t].name == "path" || terms()[t].picture) continue;
       const auto rungs = terms()[t].rungs;
       // The sub-terms of microfacet count in every second row.
       std::size_t rung = t == 0 && row % 2 ? 0 : (row * (t % 3 + 1) + row / rungs.size() + t) % rungs.size();

@@ -30,6 +30,9 @@ enum class Occlusion : std::uint8_t { None, Baked };
 enum class SpecularOcclusion : std::uint8_t { None, Ao, Lagarde };
 enum class DirectOcclusion : std::uint8_t { None, Specular };
 enum class Path : std::uint8_t { Deferred, Forward };
+// Of the picture, not of the lighting equation (docs/post.md).
+enum class Antialiasing : std::uint8_t { None, Edge };
+enum class Bloom : std::uint8_t { None, Scatter };
 
 struct Quality {
   Specular specular = Specular::Microfacet;          ///< the next four count for Microfacet alone; Lobe for every power of a cosine
@@ -47,6 +50,11 @@ struct Quality {
   DirectOcclusion directOcclusion = DirectOcclusion::None;
   /// Forward shades each surface where it is drawn, with every light: slow, unquantised, the reference of the deferred path. Rungs that the G-buffer cannot feed take it by themselves.
   Path path = Path::Deferred;
+
+  Antialiasing antialiasing = Antialiasing::None;
+  Bloom bloom = Bloom::None;
+  /// Share of the light that bloom scatters, 0 to 1.
+  float bloomShare = 0.08f;
 
   ToneMap toneMap = ToneMap::Neutral;
   std::optional<float> exposureEv;  ///< EV100; empty: automatic from this picture alone
@@ -67,6 +75,7 @@ struct Term {
   std::string_view name;  ///< as --set spells it
   std::string_view what;
   std::span<const Rung> rungs;
+  bool picture = false;   ///< works on the finished picture, not in the lighting equation: no part of a preset
 };
 
 /// Every term. The index of a term is what rungOf and setRung take.
@@ -79,7 +88,7 @@ BURNISH_API void setRung(Quality& quality, std::size_t term, std::size_t rung);
 BURNISH_API Result<void> setRung(Quality& quality, std::string_view term, std::string_view rung);
 
 /// seed: the talk that the project grew from (void geometry, (p + 8)/8 pi, Schlick, Lambert, occlusion on direct specular). default: Quality{}. exact: the top rung of each term.
-/// Tone map, exposure and light threshold are no part of a preset.
+/// Tone map, exposure, light threshold and the terms of the picture are no part of a preset.
 BURNISH_API std::span<const std::string_view> presetNames();
 /// Puts a preset's rungs in force. Errors list the names.
 BURNISH_API Result<void> setPreset(Quality& quality, std::string_view name);

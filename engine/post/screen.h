@@ -1,0 +1,20 @@
+// What full-screen passes begin with.
+#pragma once
+#include "gpu_scene/frame.h"
+
+namespace burnish::post {
+
+/// Plain state on a framebuffer, viewport and scissor at the view's rectangle.
+inline void beginScreen(gpu_scene::FrameContext& c, GLuint framebuffer) {
+  const GladGLContext& gl = c.device.gl;
+  gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  c.setViewport();
+  gl.Disable(GL_DEPTH_TEST);
+  gl.BindSamplers(0, 10, nullptr);
+}
+
+inline void bindIfThere(gpu_scene::FrameContext& c, std::string_view target, GLuint unit) {
+  if (const gl::Texture* t = c.targets.texture(target)) t->bind(unit);
+}
+
+}  // namespace burnish::post
