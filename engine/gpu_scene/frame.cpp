@@ -104,6 +104,11 @@ Result<FrameBuffers> FrameBuffers::create(gl::Device& device) {
   return b;
 }
 
+Result<GLuint> FrameContext::lightFramebuffer(bool depth) const {
+  if (!targets.texture("light")) return output;
+  return depth ? targets.framebuffer({"light"}, "depth") : targets.framebuffer({"light"});
+}
+
 void FrameContext::setViewport() const {
   const glm::ivec4 v = view.viewport;
   device.gl.Viewport(v.x, v.y, v.z, v.w);

@@ -87,10 +87,13 @@ struct FrameContext {
   const scene::LightSet& lights;
   const GpuEnvironment* environment = nullptr;
   glm::ivec2 size{0};      ///< of the target
+  GLuint output = 0;       ///< the target's framebuffer
   float preExposure = 1;   ///< the light buffer holds radiance times this
   Report& report;
   FrameStats& stats;
 
+  /// What lighting writes to: the light buffer (with depth to test against, if asked for and there), or the target where the plan develops in place.
+  Result<GLuint> lightFramebuffer(bool depth) const;
   /// Viewport and scissor at the view's rectangle.
   void setViewport() const;
   /// A full-screen triangle with the named program into the bound framebuffer.

@@ -49,13 +49,15 @@ void reduceDepth(const float* depth, int stride, int width, int height, glm::dve
       const int w = std::min(TILE_SIZE, width - tx * TILE_SIZE);
       const float* corner = depth + std::size_t(ty * TILE_SIZE) * std::size_t(stride) + std::size_t(tx * TILE_SIZE);
       // A maximum and a minimum for each column of the tile, so that the inner loop is one vector wide.
-      float high[TILE_SIZE] = {}, low[TILE_SIZE];
+      float high[TILE_SIZE] = {}, low[TILE_SIZE], any[TILE_SIZE];
+      std::fill(std::begin(any), std::end(any), 2.0f);
       std::fill(std::begin(low), std::end(low), 2.0f);
       for (int y = 0; y < h; ++y) {
         const float* row = corner + std::size_t(y) * std::size_t(stride);
         for (int x = 0; x < w; ++x) {
           const float z = row[x];
           high[x] = z > high[x] ? z : high[x];
+          any[x] = z < any[x] ? z : any[x];
           const float drawn = z > 0 ? z : 2.0f;
           low[x] = drawn < low[x] ? drawn : low[x];
         }
@@ -65,6 +67,7 @@ void reduceDepth(const float* depth, int stride, int width, int height, glm::dve
       if (!(t.near > 0)) continue;
       t.far = *std::min_element(std::begin(low), std::end(low));
       splitTile(t, corner, stride, w, h, depthParams, orthographic);
+      if (!(*std::min_element(std::begin(any), std::end(any)) > 0)) t.nearEnd = -t.nearEnd;
     }
   }
 }
@@ -87,7 +90,7 @@ void TileCuller::boundTiles(const scene::ViewFrame& view, std::span<const TileDe
         return Box{float(std::min(x0 * s0, x0 * s1) - slack), float(std::max(x1 * s0, x1 * s1) + slack), float(std::min(y0 * s0, y0 * s1) - slack),
                    float(std::max(y1 * s0, y1 * s1) + slack), float(z0 - slack),                         float(z1 + slack)};
       };
-      const double near = distance(t.near), nearEnd = distance(t.nearEnd), farBegin = distance(t.farBegin), far = distance(t.far);
+      const double near = distance(t.near), nearEnd = distance(std::abs(t.nearEnd)), farBegin = distance(t.farBegin), far = distance(t.far);
       // One slice where the halves touch: nothing is gained by two.
       slices_[i] = farBegin - nearEnd > 0.05 * (far - near) ? 2 : 1;
       boxes_[i][0] = slices_[i] == 2 ? box(near, nearEnd) : box(near, far);
@@ -180,6 +183,13 @@ void TileCuller::buildLists(std::span<const scene::LocalLight> lights) {
   if (lists_.entries.empty()) lists_.entries.push_back(0);
 }
 
+void TileCuller::listBackground(std::span<const TileDepth> depths) {
+  lists_.background = {0, int(lists_.tiles.size()), 0};
+  for (std::size_t i = 0; i < depths.size(); ++i)
+    if (depths[i].showsBackground()) lists_.tiles.emplace_back(int(i) % columns_, int(i) / columns_, 0, 0);
+  lists_.background.count = int(lists_.tiles.size()) - lists_.background.first;
+}
+
 const TileLists& TileCuller::cull(const scene::ViewFrame& view, std::span<const TileDepth> depths, std::span<const scene::LocalLight> lights) {
   columns_ = (view.viewport.z + TILE_SIZE - 1) / TILE_SIZE;
   rows_ = (view.viewport.w + TILE_SIZE - 1) / TILE_SIZE;
@@ -188,6 +198,7 @@ const TileLists& TileCuller::cull(const scene::ViewFrame& view, std::span<const 
   pairs_.clear();
   for (std::size_t i = 0; i < lights.size(); ++i) cullLight(view, lights[i], std::uint16_t(i + 1));
   buildLists(lights);
+  listBackground(depths);
   return lists_;
 }
 

@@ -12,9 +12,10 @@ namespace burnish::lighting {
 
 /// Depth of the nearest and farthest surface of a tile, as stored (reversed); far < 0: nothing is drawn there. A tile that shows a near and a far thing is mostly
 /// empty between them, so its range is split in the middle of its distances ("Half-Z", Stewart 2015, "Compute-based tiled culling"): nearEnd is the
-/// last depth of the near half, farBegin the first of the far half.
+/// last depth of the near half, farBegin the first of the far half. nearEnd is negated where the tile shows the background beside surfaces.
 struct TileDepth {
   float near = 0, nearEnd = 0, farBegin = 0, far = -1;
+  [[nodiscard]] bool showsBackground() const { return far < 0 || nearEnd < 0; }
 };
 /// From a depth buffer: rows bottom to top, `stride` floats a row, the viewport's lower left texel first. Texels of value 0 hold nothing.
 /// `depthParams` as ViewFrame's.
@@ -28,9 +29,10 @@ struct TileGroup {
   int first = 0, count = 0;  ///< in tiles
 };
 struct TileLists {
-  std::vector<TileVertex> tiles;        ///< those with something to light, grouped
+  std::vector<TileVertex> tiles;        ///< those with something to light, grouped; then those that show the background
   std::vector<TileGroup> groups;        ///< none empty
   std::vector<std::uint16_t> entries;   ///< light index + 1; 0 is the black light that pads
+  TileGroup background;                 ///< of `tiles`
   int lightsInView = 0;
 };
 
@@ -47,6 +49,7 @@ class TileCuller {
   void boundTiles(const scene::ViewFrame& view, std::span<const TileDepth> depths);
   void cullLight(const scene::ViewFrame& view, const scene::LocalLight& light, std::uint16_t index);
   void buildLists(std::span<const scene::LocalLight> lights);
+  void listBackground(std::span<const TileDepth> depths);
 
   int columns_ = 0, rows_ = 0;
   double near_ = 0;

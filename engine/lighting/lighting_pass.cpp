@@ -93,6 +93,11 @@ void LightingPass::widenViewport(const FrameContext& c) {
   c.device.gl.Enable(GL_PROGRAM_POINT_SIZE);
 }
 
+void LightingPass::bindTiles() {
+  tileArray_.bind();
+  device_.gl.VertexArrayVertexBuffer(tileArray_.id(), 0, tiles_.id(), 0, sizeof(TileVertex));
+}
+
 Result<GLuint> LightingPass::dfgTable(const Quality& quality) {
   const int index = prefilter::dfgIndex(plan::rungsOf(quality));
   gl::Texture& t = dfg_[std::size_t(index)];
@@ -138,7 +143,7 @@ Result<void> LightingPass::bindForward(FrameContext& c) {
 
 Result<void> LightingPass::shadeTiles(FrameContext& c) {
   const GladGLContext& gl = c.device.gl;
-  auto framebuffer = c.targets.framebuffer({"light"});
+  auto framebuffer = c.lightFramebuffer(false);
   if (!framebuffer) return fail(framebuffer.error());
   gl.BindFramebuffer(GL_FRAMEBUFFER, *framebuffer);
   widenViewport(c);
@@ -152,8 +157,7 @@ Result<void> LightingPass::shadeTiles(FrameContext& c) {
   if (auto bound = bindSurroundings(c, UNIT_ENVIRONMENT); !bound) return bound;
   lights_.bind(UNIT_LIGHTS);
   entries_.bind(UNIT_LIGHT_LISTS);
-  tileArray_.bind();
-  gl.VertexArrayVertexBuffer(tileArray_.id(), 0, tiles_.id(), 0, sizeof(TileVertex));
+  bindTiles();
   for (const TileGroup& g : lists_->groups) {
     const std::string name = plan::lightingProgram(g.bucket, c.quality, {int(c.lights.directional.size()), environment, occlusion, c.view.orthographic}).name;
     const gl::Program* program = c.programs.find(name);
@@ -166,27 +170,39 @@ Result<void> LightingPass::shadeTiles(FrameContext& c) {
 
 Result<void> LightingPass::drawAllTiles(FrameContext& c) {
   widenViewport(c);
-  tileArray_.bind();
-  c.device.gl.VertexArrayVertexBuffer(tileArray_.id(), 0, tiles_.id(), 0, sizeof(TileVertex));
-  c.device.gl.DrawArrays(GL_POINTS, 0, GLsizei(lists_->tiles.size()));
+  bindTiles();
+  c.device.gl.DrawArrays(GL_POINTS, 0, lists_->background.first);
   return {};
 }
 
-Result<void> drawBackground(FrameContext& c) {
+Result<void> LightingPass::drawBackground(FrameContext& c) {
   const GladGLContext& gl = c.device.gl;
-  const bool depth = c.targets.texture("depth") != nullptr;
-  auto framebuffer = depth ? c.targets.framebuffer({"light"}, "depth") : c.targets.framebuffer({"light"});
+  const gl::Texture* depth = c.targets.texture("depth");
+  auto framebuffer = c.lightFramebuffer(true);
   if (!framebuffer) return fail(framebuffer.error());
   gl.BindFramebuffer(GL_FRAMEBUFFER, *framebuffer);
   c.setViewport();
-  if (depth) {
+  gl.Disable(GL_DEPTH_TEST);
+  if (depth && !c.targets.texture("light")) {
+    depth->bind(UNIT_DEPTH);  // the target's framebuffer has not the scene's depth: the program looks it up
+  } else if (depth) {
     gl.Enable(GL_DEPTH_TEST);
     gl.DepthFunc(GL_EQUAL);
     gl.DepthMask(GL_FALSE);
   }
   gl.BindSamplers(0, 10, nullptr);
   if (c.environment) c.environment->sky.bind(UNIT_ENVIRONMENT);
-  auto drawn = c.drawScreen(c.view.orthographic ? "background+ortho" : "background");
+  const char* name = c.view.orthographic ? "background+ortho" : "background";
+  Result<void> drawn;
+  if (!c.plan.pass("tiles")) {
+    drawn = c.drawScreen(name);
+  } else if (const gl::Program* program = c.programs.find(name); program && lists_->background.count > 0) {
+    // Only where the tiles' depths say that something shows.
+    widenViewport(c);
+    program->use();
+    bindTiles();
+    gl.DrawArrays(GL_POINTS, lists_->background.first, lists_->background.count);
+  }
   gl.DepthMask(GL_TRUE);
   return drawn;
 }

@@ -15,6 +15,8 @@ class LightingPass {
   Result<void> shadeTiles(gpu_scene::FrameContext& context);
   /// Binds what the forward reference shades with: every light, the environment, the lobe's table. The pass "forward" draws then.
   Result<void> bindForward(gpu_scene::FrameContext& context);
+  /// Pass "background": where nothing was drawn.
+  Result<void> drawBackground(gpu_scene::FrameContext& context);
   /// Draws every tile with the bound program (debug view of the lists).
   Result<void> drawAllTiles(gpu_scene::FrameContext& context);
 
@@ -26,6 +28,7 @@ class LightingPass {
   /// The environment and the lobe's table, where the quality reads them.
   Result<void> bindSurroundings(gpu_scene::FrameContext& context, int environmentUnit);
   Result<GLuint> dfgTable(const Quality& quality);
+  void bindTiles();
   static void widenViewport(const gpu_scene::FrameContext& context);
 
   gl::Device& device_;
@@ -38,8 +41,5 @@ class LightingPass {
   gl::TextureBuffer lights_, entries_;
   std::array<gl::Texture, prefilter::kDfgTables> dfg_;  ///< made when first asked for
 };
-
-/// Pass "background": where nothing was drawn.
-Result<void> drawBackground(gpu_scene::FrameContext& context);
 
 }  // namespace burnish::lighting

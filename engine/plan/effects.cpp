@@ -86,25 +86,25 @@ Verdict hostDraw(const Situation& s) { return asked(s.options.hostDraw && s.fina
 Verdict nonfiniteCount(const Situation& s) { return asked(s.options.countNonfinite && s.final(), "asked for", "a request to count would call for it"); }
 
 constexpr EffectRow kRows[] = {
-    {{"geometry", CalledBy::Scene, "instances in the G-buffer"}, geometry},
-    {{"deformation", CalledBy::Scene, "skins and morph targets"}, deformation},
-    {{"two_sided", CalledBy::Scene, "surfaces seen from both sides"}, twoSided},
-    {{"alpha_test", CalledBy::Scene, "holes where opacity is under the cutoff"}, alphaTest},
-    {{"baked_occlusion", CalledBy::Scene, "occlusion maps"}, bakedOcclusion},
+    {{"geometry", CalledBy::Scene, "instances in the G-buffer"}, geometry, false},
+    {{"deformation", CalledBy::Scene, "skins and morph targets"}, deformation, false},
+    {{"two_sided", CalledBy::Scene, "surfaces seen from both sides"}, twoSided, false},
+    {{"alpha_test", CalledBy::Scene, "holes where opacity is under the cutoff"}, alphaTest, false},
+    {{"baked_occlusion", CalledBy::Scene, "occlusion maps"}, bakedOcclusion, false},
     {{"emissive", CalledBy::Scene, "surfaces that emit"}, emissive},
-    {{"directional_lights", CalledBy::Scene, "suns"}, directionalLights},
-    {{"local_lights", CalledBy::Scene, "point and spot lights"}, localLights},
-    {{"environment_lighting", CalledBy::Scene, "light of the surroundings"}, environmentLighting},
-    {{"background", CalledBy::Scene, "the surroundings where nothing was drawn"}, background},
+    {{"directional_lights", CalledBy::Scene, "suns"}, directionalLights, false},
+    {{"local_lights", CalledBy::Scene, "point and spot lights"}, localLights, false},
+    {{"environment_lighting", CalledBy::Scene, "light of the surroundings"}, environmentLighting, false},
+    {{"background", CalledBy::Scene, "the surroundings where nothing was drawn"}, background, false},
     {{"forward_reference", CalledBy::Setting, "surfaces shaded where they are drawn, unquantised"}, forwardReference},
     {{"auto_exposure", CalledBy::Setting, "exposure metered from the picture"}, autoExposure},
     {{"bloom", CalledBy::Setting, "light that scatters in the lens"}, bloom},
-    {{"tone_mapping", CalledBy::Setting, "radiance developed for a display"}, toneMapping},
+    {{"tone_mapping", CalledBy::Setting, "radiance developed for a display"}, toneMapping, false},
     {{"edge_antialiasing", CalledBy::Setting, "edges smoothed in the developed picture"}, edgeAntialiasing},
     {{"linear_output", CalledBy::Setting, "radiance in cd/m2, not developed"}, linearOutput},
     {{"debug_view", CalledBy::Setting, "a buffer in place of the picture"}, debugView},
     {{"host_depth_in", CalledBy::Setting, "the host's depth occludes the scene"}, hostDepthIn},
-    {{"host_depth_out", CalledBy::Setting, "the scene's depth for the host"}, hostDepthOut},
+    {{"host_depth_out", CalledBy::Setting, "the scene's depth for the host"}, hostDepthOut, false},
     {{"host_draw", CalledBy::Setting, "the host's own things in the frame"}, hostDraw},
     {{"nonfinite_count", CalledBy::Setting, "pixels that are not finite, counted"}, nonfiniteCount},
 };
@@ -137,6 +137,12 @@ void judgeEffects(Situation& s) {
     effect.calledBy = row.info.calledBy;
     effect.reason = std::move(verdict.reason);
   }
+}
+
+// Only where lighting and background fill the view between them, so that nobody else writes a pixel.
+bool Situation::developsInPlace() const {
+  if (!on("tone_mapping") || !on("geometry") || !lit() || !on("background")) return false;
+  return std::none_of(std::begin(kRows), std::end(kRows), [&](const EffectRow& row) { return row.needsLightBuffer && on(row.info.name); });
 }
 
 }  // namespace burnish::plan

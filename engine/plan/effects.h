@@ -12,6 +12,8 @@ struct EffectRow {
   EffectInfo info;
   /// Looks at the situation and at the effects judged before it.
   Verdict (*judge)(const Situation&);
+  /// It reads the light buffer, or adds to what is in it: there must be one while the effect is on. False: lighting may write what the display takes straight into the target.
+  bool needsLightBuffer = true;
 };
 std::span<const EffectRow> effectRows();
 

@@ -6,8 +6,8 @@ namespace burnish::plan {
 void addTiles(Builder& b) {
   const Situation& s = b.s;
   // Linear output keeps radiance in floats; a picture for a display is pre-exposed, so that half floats suffice.
-  if (s.final()) b.target("light", s.options.output == Output::Linear ? "RGBA32F" : "RGBA16F", {"tone_mapping", "linear_output", "debug_view", "directional_lights", "local_lights", "environment_lighting", "background", "emissive"});
-  if (!s.hasDepth() || s.forward() || !((s.lit() && s.final()) || s.viewsLights())) return;
+  if (s.final() && !s.developsInPlace()) b.target("light", s.options.output == Output::Linear ? "RGBA32F" : "RGBA16F", {"tone_mapping", "linear_output", "debug_view", "directional_lights", "local_lights", "environment_lighting", "background", "emissive"});
+  if (!s.hasTiles()) return;
   PassPlan& pass = b.pass("tiles", {"directional_lights", "local_lights", "environment_lighting", "debug_view"}, {"depth", "lights"}, {"light lists"});
   if (!s.reducesDepth()) return;
   b.target("tile_depth", "RGBA32F", {"directional_lights", "local_lights", "environment_lighting", "debug_view"}, (s.options.size + 15) / 16);
@@ -19,7 +19,9 @@ void addLighting(Builder& b) {
   const Situation& s = b.s;
   if (!s.hasDepth() || s.forward() || !s.lit() || !s.final()) return;
   const bool local = s.on("local_lights"), environment = s.on("environment_lighting");
-  PassPlan& pass = b.pass("lighting", {"directional_lights", "local_lights", "environment_lighting"}, {"gbuffer_a", "gbuffer_b", "depth", "lights", "light lists"}, {"light"});
+  const char* into = s.developsInPlace() ? "target" : "light";
+  PassPlan& pass = b.pass("lighting", {"directional_lights", "local_lights", "environment_lighting"}, {"gbuffer_a", "gbuffer_b", "depth", "lights", "light lists"}, {into});
+  if (s.developsInPlace()) pass.effects.emplace_back("tone_mapping");
   if (s.on("baked_occlusion")) pass.reads.push_back("gbuffer_c");
   if (needsCube(s.quality, environment)) pass.reads.push_back("environment cube");
   if (needsDfg(s.quality, environment)) pass.reads.push_back("dfg");
@@ -37,10 +39,13 @@ void addLighting(Builder& b) {
 void addBackground(Builder& b) {
   const Situation& s = b.s;
   if (!s.on("background")) return;
-  PassPlan& pass = b.pass("background", {"background"}, {"environment"}, {"light"});
+  const bool inPlace = s.developsInPlace();
+  PassPlan& pass = b.pass("background", {"background"}, {"environment"}, {inPlace ? "target" : "light"});
+  if (inPlace) pass.effects.emplace_back("tone_mapping");
   if (s.hasDepth()) pass.reads.push_back("depth");
+  if (s.hasTiles()) pass.reads.push_back("light lists");
   for (bool o : s.projections())
-    b.useScreen(pass, o ? "background+ortho" : "background", "lighting/sky.frag", {define("ORTHOGRAPHIC", o), define("SKY_MAP", !s.scene.environment.map.empty())});
+    b.use(pass, {o ? "background+ortho" : "background", s.hasTiles() ? "lighting/background_tile.vert" : "post/screen.vert", "lighting/sky.frag", {define("IN_PLACE", inPlace), define("ORTHOGRAPHIC", o), define("SKY_MAP", !s.scene.environment.map.empty()), define("TONEMAP", inPlace ? int(s.quality.toneMap) : 0)}});
 }
 
 }  // namespace burnish::plan

@@ -27,7 +27,7 @@ void addBloom(Builder& b) {
 
 void addToneMapping(Builder& b) {
   const Situation& s = b.s;
-  if (!s.on("tone_mapping") && !s.on("linear_output")) return;
+  if ((!s.on("tone_mapping") && !s.on("linear_output")) || s.developsInPlace()) return;
   const bool automatic = s.on("auto_exposure"), host = s.on("host_depth_in"), linear = s.options.output == Output::Linear;
   const bool bloom = s.on("bloom"), edges = s.on("edge_antialiasing");
   PassPlan& pass = b.pass("tonemap", {"tone_mapping", "linear_output", "host_depth_in"}, {"light"}, {edges ? "display" : "target"});

@@ -54,7 +54,11 @@ struct Situation {
   /// There is a depth buffer: instances or the host's depth are in it.
   [[nodiscard]] bool hasDepth() const { return on("geometry") || options.hostDepthIn; }
   [[nodiscard]] bool lit() const { return on("directional_lights") || on("local_lights") || on("environment_lighting"); }
+  /// Lighting writes what the display takes straight into the target: no effect needs the light buffer. Asked once all effects are judged.
+  [[nodiscard]] bool developsInPlace() const;
   [[nodiscard]] bool forward() const { return on("forward_reference"); }
+  /// The view is cut into tiles that say which lights reach them and which show the background.
+  [[nodiscard]] bool hasTiles() const { return hasDepth() && !forward() && ((lit() && final()) || viewsLights()); }
   [[nodiscard]] bool reducesDepth() const { return options.tileBounds == TileBounds::Reduction || (options.tileBounds == TileBounds::Automatic && !caps.software); }
   /// The projections that views have: perspective (false), orthographic (true).
   [[nodiscard]] std::vector<bool> projections() const;

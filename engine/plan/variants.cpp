@@ -92,8 +92,10 @@ ProgramPlan lightingProgram(int bucket, const Quality& quality, const LightingVa
   p.vertex = "lighting/tile.vert";
   p.fragment = "lighting/tile.frag";
   p.defines = shadeDefines(quality, lighting);
+  p.defines.push_back(define("IN_PLACE", lighting.inPlace >= 0));
   p.defines.push_back(define("OCCLUSION", lighting.occlusion));
   p.defines.push_back(define("TILE_LIGHTS", bucket));
+  p.defines.push_back(define("TONEMAP", std::max(lighting.inPlace, 0)));
   std::sort(p.defines.begin(), p.defines.end());
   if (lighting.orthographic) p.name += "+ortho";
   return p;

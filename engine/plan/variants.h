@@ -39,6 +39,7 @@ struct LightingVariant {
   bool environment = false;   ///< the surroundings light the scene
   bool occlusion = false;     ///< baked occlusion is there
   bool orthographic = false;
+  int inPlace = -1;           ///< tone map (ToneMap's number) of what is written straight into the target; -1: radiance is written
 };
 /// The lobe's table (prefilter/dfg.h) is read.
 bool needsDfg(const Quality& quality, bool environment);

@@ -28,7 +28,6 @@ Result<void> giveHostDepth(PassCall& p) { return post::giveHostDepth(p.c, *p.tar
 Result<void> deformPass(PassCall& p) { return gpu_scene::deform(p.c, p.c.visible); }
 Result<void> gbufferPass(PassCall& p) { return gbuffer::drawGBuffer(p.c); }
 Result<void> emissivePass(PassCall& p) { return gbuffer::drawEmissive(p.c); }
-Result<void> backgroundPass(PassCall& p) { return lighting::drawBackground(p.c); }
 
 Result<void> forwardPass(PassCall& p) {
   if (auto bound = lit<&LightingPass::bindForward>(p); !bound) return bound;
@@ -90,7 +89,7 @@ constexpr PassRow kPasses[] = {
     {"tiles", lit<&LightingPass::buildTiles>},
     {"lighting", lit<&LightingPass::shadeTiles>},
     {"emissive", emissivePass},
-    {"background", backgroundPass},
+    {"background", lit<&LightingPass::drawBackground>},
     {"host_draw", hostDrawPass},
     {"exposure", exposurePass},
     {"nonfinite_count", nonfiniteCountPass},

@@ -1,8 +1,14 @@
-// Background where nothing was drawn (depth test: equal to the far plane). Definitions: ORTHOGRAPHIC, SKY_MAP (0 colour, 1 lat-long picture).
+// Background where nothing was drawn (depth test: equal to the far plane). Definitions: ORTHOGRAPHIC, SKY_MAP (0 colour, 1 lat-long picture), IN_PLACE (1: writes what the
+// display takes into a framebuffer that has no depth: what is drawn over is found in the depth texture; TONEMAP).
 #include "shading/bridge.h"
 #include "shading/constants.h"
 #include "interface/layout.h"
 #include "interface/radiance.glsl"
+#if IN_PLACE
+#include "shading/tonemap.h"
+#include "post/develop.glsl"
+layout(binding = UNIT_DEPTH) uniform sampler2D gbufferDepth;
+#endif
 layout(std140, binding = BINDING_FRAME) uniform Frame { FrameData frame; };
 #if SKY_MAP
 layout(binding = UNIT_ENVIRONMENT) uniform sampler2D skyMap;
@@ -10,6 +16,9 @@ layout(binding = UNIT_ENVIRONMENT) uniform sampler2D skyMap;
 layout(location = 0) out vec4 outRadiance;
 
 void main() {
+#if IN_PLACE
+  if (texelFetch(gbufferDepth, ivec2(gl_FragCoord.xy), 0).r > 0.0) discard;
+#endif
 #if SKY_MAP
 #if ORTHOGRAPHIC
   vec3 d = frame.forward.xyz;
@@ -23,5 +32,9 @@ void main() {
 #else
   vec3 c = frame.background.rgb;
 #endif
-  outRadiance = vec4(limitRadiance(c, frame.exposure.w), 1.0);
+  c = limitRadiance(c, frame.exposure.w);
+#if IN_PLACE
+  c = developed(c * frame.exposure.z);
+#endif
+  outRadiance = vec4(c, 1.0);
 }

@@ -1,5 +1,5 @@
 // Shades the tiles: directional lights, the tile's point and spot lights, and the surroundings. Writes pre-exposed radiance.
-// Definitions: TILE_LIGHTS, DIRECTIONAL (count), ORTHOGRAPHIC and those of lighting/shade.glsl.
+// Definitions: TILE_LIGHTS, DIRECTIONAL (count), ORTHOGRAPHIC, IN_PLACE (1: writes what the display takes, not radiance; TONEMAP) and those of lighting/shade.glsl.
 #define ANISOTROPIC 0
 #define ENVIRONMENT_UNIT UNIT_ENVIRONMENT
 #include "shading/bridge.h"
@@ -7,6 +7,10 @@
 #include "interface/layout.h"
 #include "interface/surface.glsl"
 #include "interface/radiance.glsl"
+#if IN_PLACE
+#include "shading/tonemap.h"
+#include "post/develop.glsl"
+#endif
 
 layout(location = 0) flat in vec4 ray[3];
 #if ENVIRONMENT
@@ -61,5 +65,9 @@ void main() {
   sum += surroundings(m, occlusion);
 #endif
   // Nothing was drawn where z is 0: black there, for a background to replace.
-  outRadiance = vec4(z > 0.0 ? limitRadiance(sum, ray[2].w) : vec3(0.0), 1.0);
+  vec3 radiance = z > 0.0 ? limitRadiance(sum, ray[2].w) : vec3(0.0);
+#if IN_PLACE
+  radiance = developed(radiance * frame.exposure.z);
+#endif
+  outRadiance = vec4(radiance, 1.0);
 }

@@ -16,11 +16,12 @@ float distanceAt(float z) {
 void main() {
   ivec2 corner = ivec2(gl_FragCoord.xy) * TILE_SIZE;
   ivec2 end = min(corner + TILE_SIZE, frame.viewport.zw);
-  float near = 0.0, far = 2.0;
+  float near = 0.0, far = 2.0, least = 2.0;
   for (int y = corner.y; y < end.y; ++y)
     for (int x = corner.x; x < end.x; ++x) {
       float z = texelFetch(gbufferDepth, ivec2(x, y) + frame.viewport.xy, 0).r;
       near = max(near, z);
+      least = min(least, z);
       far = min(far, z > 0.0 ? z : 2.0);
     }
   float middle = 0.5 * (distanceAt(near) + distanceAt(far));
@@ -32,5 +33,5 @@ void main() {
       nearEnd = min(nearEnd, inNear && z > 0.0 ? z : near);
       farBegin = max(farBegin, !inNear && z > 0.0 ? z : far);
     }
-  outDepth = near > 0.0 ? vec4(near, nearEnd, farBegin, far) : vec4(0.0, 0.0, 0.0, -1.0);
+  outDepth = near > 0.0 ? vec4(near, least > 0.0 ? nearEnd : -nearEnd, farBegin, far) : vec4(0.0, 0.0, 0.0, -1.0);
 }

@@ -4,6 +4,7 @@
 #include "shading/bridge.h"
 #include "shading/constants.h"
 #include "shading/tonemap.h"
+#include "post/develop.glsl"
 #include "interface/layout.h"
 #include "interface/radiance.glsl"
 layout(std140, binding = BINDING_FRAME) uniform Frame { FrameData frame; };
@@ -51,16 +52,7 @@ void main() {
 #else
   c *= frame.exposure.z;
 #endif
-#if TONEMAP == 1
-  c = tonemapNeutral(c);
-#elif TONEMAP == 2
-  c = tonemapAgx(c);
-#elif TONEMAP == 3
-  c = tonemapAces(c);
-#else
-  c = tonemapNone(c);
-#endif
-  outColor = vec4(srgbFromLinearFast(c.r), srgbFromLinearFast(c.g), srgbFromLinearFast(c.b), 1.0);
+  outColor = vec4(developed(c), 1.0);
 #if DISPLAY_LUMA
   outColor.a = (1.0 + 254.0 * dot(outColor.rgb, vec3(0.299, 0.587, 0.114))) / 255.0;
 #endif

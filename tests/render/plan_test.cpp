@@ -115,6 +115,54 @@ TEST_CASE("the log says which effects went on and off, once, and why") {
   CHECK(lines == std::vector<std::string>{"effect 'emissive' on: material 'lamp' emits"});
 }
 
+TEST_CASE("where nothing needs the light buffer there is none: lighting and background develop in place, within 1/255") {
+  Workshop w;
+  w.scene.environment.map = {};
+  w.scene.environment.color = vec3(3, 5, 9);
+  w.scene.environment.background = true;
+  Stage stage;
+  for (ToneMap map : {ToneMap::None, ToneMap::Neutral, ToneMap::AgX, ToneMap::Aces})
+    for (bool orthographic : {false, true}) {
+      CAPTURE(int(map), orthographic);
+      View view = w.view;
+      view.orthographic = orthographic;
+      view.far = 100;
+      Quality quality;
+      quality.toneMap = map;
+      quality.exposureEv = 2;
+      const Picture direct = stage.draw(w.scene, {&view, 1}, {75, 53}, quality, {});
+      const FramePlan plan = stage.renderer->lastPlan();
+      CHECK(plan.target("light") == nullptr);
+      CHECK(plan.pass("tonemap") == nullptr);
+      CHECK(lists(effectOf(plan, "tone_mapping").passes, "lighting"));
+      RenderRequest counted;
+      counted.countNonfinite = true;  // it reads the light buffer
+      const Picture buffered = stage.draw(w.scene, {&view, 1}, {75, 53}, quality, counted);
+      CHECK(stage.renderer->lastPlan().target("light") != nullptr);
+      double worst = 0, mean = 0;
+      for (int y = 0; y < 53; ++y)
+        for (int x = 0; x < 75; ++x) {
+          const dvec3 d = glm::abs(direct.at(x, y) - buffered.at(x, y));
+          worst = std::max({worst, d.x, d.y, d.z});
+          mean += direct.at(x, y).y;
+        }
+      CHECK(worst <= 1.01 / 255);
+      CHECK(mean > 75 * 53 * 0.05);
+    }
+  // Two views in one target: neither writes outside its rectangle.
+  View left = w.view, right = w.view;
+  left.viewport = {0, 0, 40, 53};
+  right.viewport = {40, 10, 30, 30};
+  const View views[] = {left, right};
+  Quality quality;
+  quality.exposureEv = 2;
+  const Picture both = stage.draw(w.scene, views, {75, 53}, quality, {});
+  CHECK(stage.renderer->lastPlan().target("light") == nullptr);
+  const Picture alone = stage.draw(w.scene, {&left, 1}, {75, 53}, quality, {});
+  for (int y = 0; y < 53; ++y)
+    for (int x = 0; x < 40; ++x) REQUIRE(both.at(x, y) == alone.at(x, y));
+}
+
 TEST_CASE("bytes of target formats agree with OpenGL's table") {
   int known = 0;
   for (const gl::FormatInfo& f : gl::formats())
