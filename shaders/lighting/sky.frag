@@ -6,7 +6,7 @@
 #include "interface/radiance.glsl"
 #if IN_PLACE
 #include "shading/tonemap.h"
-#include "post/develop.glsl"
+#include "interface/develop.glsl"
 layout(binding = UNIT_DEPTH) uniform sampler2D gbufferDepth;
 #endif
 layout(std140, binding = BINDING_FRAME) uniform Frame { FrameData frame; };

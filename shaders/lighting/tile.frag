@@ -9,7 +9,7 @@
 #include "interface/radiance.glsl"
 #if IN_PLACE
 #include "shading/tonemap.h"
-#include "post/develop.glsl"
+#include "interface/develop.glsl"
 #endif
 
 layout(location = 0) flat in vec4 ray[3];

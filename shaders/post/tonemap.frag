@@ -4,7 +4,7 @@
 #include "shading/bridge.h"
 #include "shading/constants.h"
 #include "shading/tonemap.h"
-#include "post/develop.glsl"
+#include "interface/develop.glsl"
 #include "interface/layout.h"
 #include "interface/radiance.glsl"
 layout(std140, binding = BINDING_FRAME) uniform Frame { FrameData frame; };
