@@ -156,6 +156,8 @@ Result<void> uploadFrameData(FrameContext& c, float displayExposure) {
     for (std::size_t i = 0; i < 9; ++i) d.irradiance[i] = vec4(c.environment->irradiance[i] * scale, 0);
   }
   d.environment.y = float(c.lights.local.size());
+  d.environment.z = std::isfinite(c.quality.occlusionRadius) ? std::clamp(c.quality.occlusionRadius, 1e-3f, 1e3f) : 1.0f;
+  d.environment.w = float(c.view.viewport.w) / 6;
   d.viewport = c.view.viewport;
   for (std::size_t i = 0; i < c.lights.directional.size(); ++i) {
     d.directional[2 * i] = vec4(c.lights.directional[i].toLight, 0);

@@ -152,8 +152,8 @@ Result<void> LightingPass::shadeTiles(FrameContext& c) {
   c.targets.texture("gbuffer_b")->bind(UNIT_GBUFFER_B);
   c.targets.texture("depth")->bind(UNIT_DEPTH);
   gl.BindSamplers(0, 10, nullptr);
-  const bool occlusion = c.plan.on("baked_occlusion"), environment = c.plan.on("environment_lighting");
-  if (occlusion) c.targets.texture("gbuffer_c")->bind(UNIT_GBUFFER_C);
+  const bool screen = c.plan.on("screen_occlusion"), occlusion = screen || c.plan.on("baked_occlusion"), environment = c.plan.on("environment_lighting");
+  if (occlusion) c.targets.texture(screen ? "occlusion" : "gbuffer_c")->bind(UNIT_GBUFFER_C);
   if (auto bound = bindSurroundings(c, UNIT_ENVIRONMENT); !bound) return bound;
   lights_.bind(UNIT_LIGHTS);
   entries_.bind(UNIT_LIGHT_LISTS);
@@ -173,6 +173,37 @@ Result<void> LightingPass::drawAllTiles(FrameContext& c) {
   bindTiles();
   c.device.gl.DrawArrays(GL_POINTS, 0, lists_->background.first);
   return {};
+}
+
+namespace {
+
+// A program of lighting/screen_tile.vert over the tiles that hold surfaces.
+Result<void> drawTilesInto(FrameContext& c, LightingPass& pass, std::string_view target, std::string name) {
+  auto framebuffer = c.targets.framebuffer({target});
+  if (!framebuffer) return fail(framebuffer.error());
+  c.device.gl.BindFramebuffer(GL_FRAMEBUFFER, *framebuffer);
+  c.device.gl.Disable(GL_DEPTH_TEST);
+  c.device.gl.BindSamplers(0, 10, nullptr);
+  if (c.view.orthographic) name += "+ortho";
+  const gl::Program* program = c.programs.find(name);
+  if (!program) return fail("frame plan", fmt::format("program '{}' is not in it", name), "report this as a fault of the engine");
+  program->use();
+  return pass.drawAllTiles(c);
+}
+
+}  // namespace
+
+Result<void> LightingPass::findOcclusion(FrameContext& c) {
+  c.targets.texture("gbuffer_b")->bind(UNIT_GBUFFER_B);
+  c.targets.texture("depth")->bind(UNIT_DEPTH);
+  return drawTilesInto(c, *this, "occlusion_raw", "occlusion");
+}
+
+Result<void> LightingPass::denoiseOcclusion(FrameContext& c) {
+  c.targets.texture("occlusion_raw")->bind(UNIT_OCCLUSION);
+  c.targets.texture("depth")->bind(UNIT_DEPTH);
+  if (const gl::Texture* baked = c.targets.texture("gbuffer_c")) baked->bind(UNIT_GBUFFER_C);
+  return drawTilesInto(c, *this, "occlusion", "occlusion_denoise");
 }
 
 Result<void> LightingPass::drawBackground(FrameContext& c) {

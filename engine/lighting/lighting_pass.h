@@ -1,4 +1,4 @@
-// Light culling and the lighting passes: "tiles", "lighting", "background".
+// Light culling and the lighting passes: "tiles", "occlusion", "occlusion_denoise", "lighting", "background".
 #pragma once
 #include "gpu_scene/frame.h"
 #include "lighting/light_tiles.h"
@@ -13,6 +13,10 @@ class LightingPass {
   Result<void> buildTiles(gpu_scene::FrameContext& context);
   /// Pass "lighting": shades the tiles that hold surfaces into the light buffer.
   Result<void> shadeTiles(gpu_scene::FrameContext& context);
+  /// Pass "occlusion": visible over visible at most of each pixel's slices, and their weight, into "occlusion_raw".
+  Result<void> findOcclusion(gpu_scene::FrameContext& context);
+  /// Pass "occlusion_denoise": its mean over neighbours on the same surface, and baked occlusion where that is darker, into "occlusion".
+  Result<void> denoiseOcclusion(gpu_scene::FrameContext& context);
   /// Binds what the forward reference shades with: every light, the environment, the lobe's table. The pass "forward" draws then.
   Result<void> bindForward(gpu_scene::FrameContext& context);
   /// Pass "background": where nothing was drawn.

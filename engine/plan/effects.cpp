@@ -48,6 +48,16 @@ Verdict forwardReference(const Situation& s) {
   if (!s.on("geometry")) return {false, "nothing to shade"};
   return {true, rung.empty() ? "path=forward" : rung + " needs what the G-buffer does not hold"};
 }
+Verdict screenOcclusion(const Situation& s) {
+  const OcclusionSamples samples = occlusionSamples(s.quality.occlusion);
+  if (samples.slices == 0) return {false, "occlusion=screen-4, screen-8 or screen-16 would call for it"};
+  if (!s.on("geometry")) return {false, "nothing to shade"};
+  if (s.forward()) return {false, "the forward reference path has no G-buffer to find it in"};
+  const bool lights = s.quality.directOcclusion != DirectOcclusion::None && (s.on("directional_lights") || s.on("local_lights"));
+  if (s.options.debugView != DebugView::Occlusion && !s.final()) return {false, std::string(kNotShown)};
+  if (s.options.debugView != DebugView::Occlusion && !s.on("environment_lighting") && !lights) return {false, "no light that it holds back: it takes from the surroundings'"};
+  return {true, fmt::format("occlusion=screen-{}", 2 * samples.slices * samples.steps)};
+}
 Verdict autoExposure(const Situation& s) {
   if (s.options.output == Output::Linear) return {false, "linear output is untouched by exposure"};
   if (s.quality.exposureEv) return {false, "the exposure is set"};
@@ -97,6 +107,7 @@ constexpr EffectRow kRows[] = {
     {{"environment_lighting", CalledBy::Scene, "light of the surroundings"}, environmentLighting, false},
     {{"background", CalledBy::Scene, "the surroundings where nothing was drawn"}, background, false},
     {{"forward_reference", CalledBy::Setting, "surfaces shaded where they are drawn, unquantised"}, forwardReference},
+    {{"screen_occlusion", CalledBy::Setting, "ambient occlusion found on the screen"}, screenOcclusion, false},
     {{"auto_exposure", CalledBy::Setting, "exposure metered from the picture"}, autoExposure},
     {{"bloom", CalledBy::Setting, "light that scatters in the lens"}, bloom},
     {{"tone_mapping", CalledBy::Setting, "radiance developed for a display"}, toneMapping, false},

@@ -8,11 +8,28 @@ void addTiles(Builder& b) {
   // Linear output keeps radiance in floats; a picture for a display is pre-exposed, so that half floats suffice.
   if (s.final() && !s.developsInPlace()) b.target("light", s.options.output == Output::Linear ? "RGBA32F" : "RGBA16F", {"tone_mapping", "linear_output", "debug_view", "directional_lights", "local_lights", "environment_lighting", "background", "emissive"});
   if (!s.hasTiles()) return;
-  PassPlan& pass = b.pass("tiles", {"directional_lights", "local_lights", "environment_lighting", "debug_view"}, {"depth", "lights"}, {"light lists"});
+  PassPlan& pass = b.pass("tiles", {"directional_lights", "local_lights", "environment_lighting", "screen_occlusion", "debug_view"}, {"depth", "lights"}, {"light lists"});
   if (!s.reducesDepth()) return;
-  b.target("tile_depth", "RGBA32F", {"directional_lights", "local_lights", "environment_lighting", "debug_view"}, (s.options.size + 15) / 16);
+  b.target("tile_depth", "RGBA32F", {"directional_lights", "local_lights", "environment_lighting", "screen_occlusion", "debug_view"}, (s.options.size + 15) / 16);
   pass.writes.push_back("tile_depth");
   for (bool o : s.projections()) b.useScreen(pass, o ? "tile_depth+ortho" : "tile_depth", "lighting/tile_depth.frag", {define("ORTHOGRAPHIC", o)});
+}
+
+// Both passes shade the tiles that hold surfaces. The second merges what is baked, so that lighting reads one texture.
+void addOcclusion(Builder& b) {
+  const Situation& s = b.s;
+  if (!s.on("screen_occlusion")) return;
+  const bool baked = s.on("baked_occlusion");
+  const OcclusionSamples samples = occlusionSamples(s.quality.occlusion);
+  b.target("occlusion_raw", "RG8", {"screen_occlusion"});
+  b.target("occlusion", "R8", {"screen_occlusion"});
+  PassPlan& search = b.pass("occlusion", {"screen_occlusion"}, {"gbuffer_b", "depth", "light lists"}, {"occlusion_raw"});
+  for (bool o : s.projections())
+    b.use(search, {o ? "occlusion+ortho" : "occlusion", "lighting/screen_tile.vert", "lighting/occlusion.frag", {define("ORTHOGRAPHIC", o), define("SLICES", samples.slices), define("STEPS", samples.steps)}});
+  PassPlan& denoise = b.pass("occlusion_denoise", {"screen_occlusion"}, {"occlusion_raw", "depth", "light lists"}, {"occlusion"});
+  if (baked) denoise.reads.push_back("gbuffer_c");
+  for (bool o : s.projections())
+    b.use(denoise, {o ? "occlusion_denoise+ortho" : "occlusion_denoise", "lighting/screen_tile.vert", "lighting/occlusion_denoise.frag", {define("BAKED", baked), define("ORTHOGRAPHIC", o)}});
 }
 
 void addLighting(Builder& b) {
@@ -22,7 +39,10 @@ void addLighting(Builder& b) {
   const char* into = s.developsInPlace() ? "target" : "light";
   PassPlan& pass = b.pass("lighting", {"directional_lights", "local_lights", "environment_lighting"}, {"gbuffer_a", "gbuffer_b", "depth", "lights", "light lists"}, {into});
   if (s.developsInPlace()) pass.effects.emplace_back("tone_mapping");
-  if (s.on("baked_occlusion")) pass.reads.push_back("gbuffer_c");
+  if (s.on("screen_occlusion"))
+    pass.reads.push_back("occlusion");
+  else if (s.on("baked_occlusion"))
+    pass.reads.push_back("gbuffer_c");
   if (needsCube(s.quality, environment)) pass.reads.push_back("environment cube");
   if (needsDfg(s.quality, environment)) pass.reads.push_back("dfg");
   for (bool orthographic : s.projections()) {

@@ -90,6 +90,9 @@ constexpr Rung kAmbient[] = {
 constexpr Rung kOcclusion[] = {
     {"none", "ambient light reaches everything", "the term left out"},
     {"baked", "map C's ambient occlusion on ambient diffuse", "Zhukov, Iones and Kronin 1998"},
+    {"screen-4", "and the screen's, whichever is darker: horizons in 1 slice of 4 samples a pixel, denoised", "Jimenez et al. 2016, eq. 7; Bavoil and Sainz 2008"},
+    {"screen-8", "the same, 2 slices of 4 samples", "Jimenez et al. 2016, eq. 7; Bavoil and Sainz 2008"},
+    {"screen-16", "the same, 2 slices of 8 samples", "Jimenez et al. 2016, eq. 7; Bavoil and Sainz 2008"},
 };
 constexpr Rung kSpecularOcclusion[] = {
     {"none", "reflections reach everything", "the term left out"},
@@ -219,6 +222,7 @@ Result<void> setPreset(Quality& quality, std::string_view name) {
   q.antialiasing = quality.antialiasing;
   q.bloom = quality.bloom;
   q.bloomShare = quality.bloomShare;
+  q.occlusionRadius = quality.occlusionRadius;
   quality = q;
   return {};
 }

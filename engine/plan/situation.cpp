@@ -95,7 +95,7 @@ std::vector<bool> Situation::projections() const {
 }
 
 LightingVariant Situation::lighting(bool orthographic) const {
-  return {on("directional_lights") ? std::min(facts.directionalLights, MAX_DIRECTIONAL) : 0, on("environment_lighting"), on("baked_occlusion"), orthographic, developsInPlace() ? int(quality.toneMap) : -1};
+  return {on("directional_lights") ? std::min(facts.directionalLights, MAX_DIRECTIONAL) : 0, on("environment_lighting"), on("baked_occlusion") || on("screen_occlusion"), orthographic, developsInPlace() ? int(quality.toneMap) : -1};
 }
 
 }  // namespace burnish::plan

@@ -58,7 +58,7 @@ struct Situation {
   [[nodiscard]] bool developsInPlace() const;
   [[nodiscard]] bool forward() const { return on("forward_reference"); }
   /// The view is cut into tiles that say which lights reach them and which show the background.
-  [[nodiscard]] bool hasTiles() const { return hasDepth() && !forward() && ((lit() && final()) || viewsLights()); }
+  [[nodiscard]] bool hasTiles() const { return hasDepth() && !forward() && ((lit() && final()) || viewsLights() || on("screen_occlusion")); }
   [[nodiscard]] bool reducesDepth() const { return options.tileBounds == TileBounds::Reduction || (options.tileBounds == TileBounds::Automatic && !caps.software); }
   /// The projections that views have: perspective (false), orthographic (true).
   [[nodiscard]] std::vector<bool> projections() const;

@@ -52,6 +52,17 @@ ProgramPlan geometryProgram(GeometryPass pass, GeometryVariant variant, bool occ
   return p;
 }
 
+OcclusionSamples occlusionSamples(Occlusion rung) {
+  switch (rung) {
+    case Occlusion::Screen4: return {1, 2};
+    case Occlusion::Screen8: return {1, 4};
+    case Occlusion::Screen16: return {1, 8};
+    case Occlusion::None:
+    case Occlusion::Baked: break;
+  }
+  return {};
+}
+
 bool needsDfg(const Quality& q, bool environment) {
   return shading::needsAlbedoTable(rungsOf(q)) || (environment && (q.environmentSpecular == EnvironmentSpecular::Dfg || q.environmentSpecular == EnvironmentSpecular::Sampled));
 }

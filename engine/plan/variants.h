@@ -33,11 +33,17 @@ enum class GeometryPass : std::uint8_t { GBuffer, Emissive, Pick, Forward };
 /// occlusionTarget: the frame has a third target. Not for Forward, which forwardProgram makes.
 ProgramPlan geometryProgram(GeometryPass pass, GeometryVariant variant, bool occlusionTarget);
 
+/// How the screen-space rungs of occlusion sample: slices, each a half turn around the direction to the eye, and samples to either side of it. No slices: the rung is another.
+struct OcclusionSamples {
+  int slices = 0, steps = 0;
+};
+OcclusionSamples occlusionSamples(Occlusion rung);
+
 /// What the lighting programs of a frame have in common.
 struct LightingVariant {
   int directional = 0;        ///< directional lights
   bool environment = false;   ///< the surroundings light the scene
-  bool occlusion = false;     ///< baked occlusion is there
+  bool occlusion = false;     ///< ambient occlusion is there, baked or of the screen
   bool orthographic = false;
   int inPlace = -1;           ///< tone map (ToneMap's number) of what is written straight into the target; -1: radiance is written
 };

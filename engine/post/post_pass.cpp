@@ -75,6 +75,7 @@ Result<void> drawDebugView(FrameContext& c, GLuint framebuffer) {
   bindIfThere(c, "gbuffer_a", UNIT_GBUFFER_A);
   bindIfThere(c, "gbuffer_b", UNIT_GBUFFER_B);
   bindIfThere(c, "gbuffer_c", UNIT_GBUFFER_C);
+  bindIfThere(c, "occlusion", UNIT_GBUFFER_C);
   bindIfThere(c, "depth", UNIT_DEPTH);
   bindIfThere(c, "light", UNIT_LIGHT_BUFFER);
   return c.drawScreen(c.view.orthographic ? "debug_view+ortho" : "debug_view");

@@ -87,6 +87,8 @@ constexpr PassRow kPasses[] = {
     {"gbuffer", gbufferPass},
     {"forward", forwardPass},
     {"tiles", lit<&LightingPass::buildTiles>},
+    {"occlusion", lit<&LightingPass::findOcclusion>},
+    {"occlusion_denoise", lit<&LightingPass::denoiseOcclusion>},
     {"lighting", lit<&LightingPass::shadeTiles>},
     {"emissive", emissivePass},
     {"background", lit<&LightingPass::drawBackground>},

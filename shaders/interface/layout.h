@@ -34,6 +34,7 @@
 #define UNIT_POSE 0
 #define UNIT_BLOOM 0
 #define UNIT_DISPLAY 0
+#define UNIT_OCCLUSION 0  // what the denoise pass reads
 
 // Vertex attributes
 #define ATTRIBUTE_POSITION 0
@@ -56,7 +57,7 @@ struct FrameData {
   vec4 depthParams;      // perspective: w = x / (z + y); orthographic: w = x - z * y
   vec4 exposure;         // x pre-exposure (what the light buffer holds is radiance times this), y its inverse, z fixed display exposure, w light buffer's limit
   vec4 eye;              // xyz world position of the eye (m), for debug views only
-  vec4 environment;      // x last level of the prefiltered cube; y number of point and spot lights (forward path)
+  vec4 environment;      // x last level of the prefiltered cube; y number of point and spot lights (forward path); z radius of screen-space occlusion (m), w its bound on the screen (pixels)
   vec4 background;       // rgb pre-exposed background colour; w scale of the environment cube
   ivec4 viewport;        // x, y, width, height in pixels
   vec4 irradiance[9];    // pre-exposed irradiance/pi of the surroundings, SH L2 with all constants folded in (shading/environment.h)

@@ -8,3 +8,4 @@
 #include "shading/shade.h"
 #include "shading/sampling.h"
 #include "shading/environment.h"
+#include "shading/occlusion.h"

@@ -37,3 +37,12 @@ FN vec4 basisCase(vec3 n, bool second) {
   basisFrom(n, t, b);
   return vec4(second ? b : t, R(0.0));
 }
+
+// One slice of ambient occlusion with two occluders on one side: what can be seen, what they take, the projection's length and the horizon, by the slice's weight.
+FN vec4 occlusionCase(vec3 n, vec3 v, vec3 direction, vec3 d) {
+  OcclusionSlice s = occlusionSlice(makeSurface(n, v, vec3(R(0.0)), R(0.0), R(1.0)).n, v, direction);
+  OcclusionSide o = occlusionSide(s, R(1.0));
+  addOccluder(o, s, d, R(1.0), R(0.25), R(0.1));
+  addOccluder(o, s, d * R(1.5) + v * R(0.3), R(1.0), R(0.25), R(0.1));
+  return vec4(s.weight * occlusionSeeable(s), s.weight * o.lost, s.weight, s.weight * o.cosHorizon);
+}

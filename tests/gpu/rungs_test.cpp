@@ -51,6 +51,9 @@ Errors errorsOf(const Row& row, std::span<const Case> cases, std::span<const glm
 const std::map<std::string, const char*> kElsewhere = {
     {"occlusion=none", "a texture that is read or not (tests/render)"},
     {"occlusion=baked", "a texture that is read or not (tests/render)"},
+    {"occlusion=screen-4", "passes (tests/render); their functions have rows"},
+    {"occlusion=screen-8", "passes (tests/render); their functions have rows"},
+    {"occlusion=screen-16", "passes (tests/render); their functions have rows"},
     {"direct-occlusion=none", "a factor in the lighting pass (tests/render)"},
     {"direct-occlusion=specular", "a factor in the lighting pass (tests/render)"},
     {"path=deferred", "passes (tests/render)"},

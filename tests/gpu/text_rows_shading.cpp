@@ -50,6 +50,23 @@ const Domain kHarmonics{"spherical harmonics",
                           return made;
                         }};
 const Domain kOcclusion = numbers("occlusion", {kCosine, kCosine, kAlpha});
+/// a: normal; b: to the eye; c: a direction of the screen; d: an occluder's place.
+const Domain kSlices{"slices of the hemisphere",
+                     [](Random& random) {
+                       for (;;) {
+                         const glm::vec3 n = randomUnit(random), v = randomUnit(random), t = randomUnit(random);
+                         const glm::vec3 d = randomUnit(random) * uniform(random, 0.05f, 2);
+                         const glm::vec3 across = glm::normalize(glm::cross(v, t));
+                         // Where the normal's projection is a direction, and the occluder on the slice's side.
+                         if (glm::dot(n, v) > 0.2f && std::abs(glm::dot(v, t)) < 0.9f && glm::dot(d, glm::cross(across, v)) > 0.03f) return Case{glm::vec4(n, 0), glm::vec4(v, 0), glm::vec4(t, 0), glm::vec4(d, 0)};
+                       }
+                     },
+                     [](Random& random) {
+                       const glm::vec3 v = hardUnit(random);
+                       glm::vec3 t = hardUnit(random);
+                       while (std::abs(glm::dot(t, v)) > 0.999f) t = randomUnit(random);
+                       return Case{glm::vec4(hardNear(random, v), 0), glm::vec4(v, 0), glm::vec4(t, 0), glm::vec4(hardUnit(random) * std::pow(10.0f, uniform(random, -20, 9)), 0)};
+                     }};
 const Domain kTable = numbers("tables of albedo", {kCosine, kAlpha, kUnit});
 const Domain kSampling = numbers("sampling", {kRandom, kRandom, kAlpha, kSin2, kAlpha, kInteger});
 const Domain kLight = numbers("lights", {kDistance2, kUnit, kUnit, kZero, kAny, kAny, kAny});
@@ -118,6 +135,9 @@ void addSurroundings(std::vector<Row>& rows) {
   for (int i = SPECULAR_OCCLUSION_NONE; i <= SPECULAR_OCCLUSION_LAGARDE; ++i)
     rows.push_back({rungName("specular-occlusion", i), {rungName("specular-occlusion", i)}, &kOcclusion, TEXT(vec4(specularOcclusion(a.x, a.y, a.z, rung), R(0.0), R(0.0), R(0.0))), {}, i, absolute(),
                     1.2e-6, ranges({0, 1})});
+  rows.push_back({"occlusionSlice, occlusionSide, addOccluder, occlusionSeeable, occlusionArc", {}, &kSlices, TEXT(occlusionCase(vec3(a), vec3(b), vec3(c), vec3(d))), {}, 0, absolute(), {1e-3, 4e-4},  // the arc cosine near 1
+                 
+                  ranges({0, kPi / 2 + 1e-5}, {-1e-5, kPi / 2 + 1e-3}, {0, 1 + 1e-6}, {-1 - 1e-6, 1 + 1e-6})});
   rows.push_back({"dfgColumn, dfgRow, dfgCoordinate", {}, &kTable, TEXT(vec4(dfgColumn(a.x), dfgRow(a.y), dfgCoordinate(a.x, a.z, vec2(R(64.0), R(32.0))))), {}, 0, absolute(), 5e-7,
                   ranges({-1e-6, 1}, {-1.7e-4, 1}, {0, 1}, {0, 1})});  // alpha under BURNISH_ALPHA_MIN lies before the first row
   rows.push_back({"dfgMeanCoordinate, environmentLevel, environmentRoughness", {}, &kTable,

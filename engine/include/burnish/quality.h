@@ -26,7 +26,7 @@ enum class Diffuse : std::uint8_t { Lambert, LambertFresnel, CoupledFit, Coupled
 enum class Compensation : std::uint8_t { None, MultipleScattering };
 enum class EnvironmentSpecular : std::uint8_t { None, Schlick, RoughSchlick, Dfg, Sampled };
 enum class Ambient : std::uint8_t { None, Constant, ShL1, ShL2 };
-enum class Occlusion : std::uint8_t { None, Baked };
+enum class Occlusion : std::uint8_t { None, Baked, Screen4, Screen8, Screen16 };  ///< the screen's rungs take baked occlusion too, where it is the darker
 enum class SpecularOcclusion : std::uint8_t { None, Ao, Lagarde };
 enum class DirectOcclusion : std::uint8_t { None, Specular };
 enum class Path : std::uint8_t { Deferred, Forward };
@@ -60,6 +60,8 @@ struct Quality {
   std::optional<float> exposureEv;  ///< EV100; empty: automatic from this picture alone
   /// Irradiance (lux) under which a light without a range is cut off; the loss is reported.
   float lightThreshold = 0.02f;
+  /// How far screen-space occlusion looks, metres: occluders count in full up to half of it, then fade. On the screen it is held at a sixth of the view's height.
+  float occlusionRadius = 1;
   friend bool operator==(const Quality&, const Quality&) = default;
 };
 
@@ -88,7 +90,7 @@ BURNISH_API void setRung(Quality& quality, std::size_t term, std::size_t rung);
 BURNISH_API Result<void> setRung(Quality& quality, std::string_view term, std::string_view rung);
 
 /// seed: the talk that the project grew from (void geometry, (p + 8)/8 pi, Schlick, Lambert, occlusion on direct specular). default: Quality{}. exact: the top rung of each term.
-/// Tone map, exposure, light threshold and the terms of the picture are no part of a preset.
+/// Tone map, exposure, light threshold, occlusion radius and the terms of the picture are no part of a preset.
 BURNISH_API std::span<const std::string_view> presetNames();
 /// Puts a preset's rungs in force. Errors list the names.
 BURNISH_API Result<void> setPreset(Quality& quality, std::string_view name);
