@@ -202,7 +202,8 @@ TEST_CASE("forward and deferred agree: a sample of rungs") {
     std::string what = fmt::format("row {}:", row);
     for (std::size_t t = 0; t < terms().size(); ++t) {
       if (terms()[t].name == "path" || terms()[t].picture) continue;
-      const auto rungs = terms()[t].rungs;
+      auto rungs = terms()[t].rungs;
+      if (terms()[t].name == "occlusion") rungs = rungs.first(2);  // the screen's are not on the forward path
       // The sub-terms of microfacet count in every second row.
       std::size_t rung = t == 0 && row % 2 ? 0 : (row * (t % 3 + 1) + row / rungs.size() + t) % rungs.size();
       if (rungs[rung].forwardOnly) rung = 1;
