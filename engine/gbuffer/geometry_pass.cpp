@@ -41,6 +41,13 @@ class RasterState {
   bool twoSided_ = false, flipped_ = false;
 };
 
+// What the pass "transparent" does not draw.
+struct Opaque {
+  explicit Opaque(const FrameContext& c) : blend(c.plan.on("alpha_blend")), glass(c.plan.on("glass")) {}
+  bool operator()(const Material& m) const { return !plan::drawnTransparent(m, blend, glass); }
+  bool blend, glass;
+};
+
 // The pass's program of each variant: looked up once.
 class Programs {
  public:
@@ -116,7 +123,7 @@ Result<void> drawGBuffer(FrameContext& c) {
     const float far = 0;
     gl.ClearNamedFramebufferfv(*framebuffer, GL_DEPTH, 0, &far);
   }
-  return drawInstances(c, plan::GeometryPass::GBuffer, occlusion, [](const Material&) { return true; }, [](const Material&) {});
+  return drawInstances(c, plan::GeometryPass::GBuffer, occlusion, Opaque(c), [](const Material&) {});
 }
 
 Result<void> drawForward(FrameContext& c) {
@@ -131,7 +138,7 @@ Result<void> drawForward(FrameContext& c) {
   const float black[4] = {0, 0, 0, 1}, far = 0;
   gl.ClearNamedFramebufferfv(*framebuffer, GL_COLOR, 0, black);
   if (!c.plan.on("host_depth_in")) gl.ClearNamedFramebufferfv(*framebuffer, GL_DEPTH, 0, &far);
-  return drawInstances(c, plan::GeometryPass::Forward, c.plan.on("baked_occlusion"), [](const Material&) { return true; }, [](const Material&) {});
+  return drawInstances(c, plan::GeometryPass::Forward, c.plan.on("baked_occlusion"), Opaque(c), [](const Material&) {});
 }
 
 Result<void> drawEmissive(FrameContext& c) {
@@ -144,7 +151,7 @@ Result<void> drawEmissive(FrameContext& c) {
   gl.DepthMask(GL_FALSE);
   gl.DepthFunc(GL_EQUAL);
   gl.Enable(GL_BLEND);
-  auto result = drawInstances(c, plan::GeometryPass::Emissive, false, [](const Material& m) { return plan::emits(m); },
+  auto result = drawInstances(c, plan::GeometryPass::Emissive, false, [opaque = Opaque(c)](const Material& m) { return plan::emits(m) && opaque(m); },
                               [&gl](const Material& m) { gl.BlendFunc(GL_ONE, m.unlit ? GL_ZERO : GL_ONE); });
   gl.Disable(GL_BLEND);
   gl.DepthMask(GL_TRUE);

@@ -9,7 +9,7 @@
 #include "gl/objects.h"
 #include "gl/program.h"
 #include "gpu_scene/gpu_scene.h"
-#include "scene/visibility.h"
+#include "scene/transparency.h"
 
 namespace burnish::gpu_scene {
 
@@ -85,6 +85,7 @@ struct FrameContext {
   const std::vector<scene::VisibleInstance>& visible;
   std::span<const scene::Batch> batches;  ///< of `visible`; what is drawn by one call each
   const scene::LightSet& lights;
+  std::span<const scene::TransparentGroup> transparent{};  ///< farthest first
   const GpuEnvironment* environment = nullptr;
   glm::ivec2 size{0};      ///< of the target
   GLuint output = 0;       ///< the target's framebuffer

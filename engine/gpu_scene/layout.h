@@ -12,6 +12,6 @@ using glm::vec4;
 static_assert(offsetof(FrameData, rayOrigin) == 64 && offsetof(FrameData, viewport) == 208 && offsetof(FrameData, irradiance) == 224);
 static_assert(sizeof(FrameData) == 224 + 9 * 16 + 2 * MAX_DIRECTIONAL * 16);
 static_assert(sizeof(DrawData) == DRAW_VECTORS * 16 && offsetof(DrawData, normal) == 112);
-static_assert(sizeof(MaterialData) == 16 * 16 && offsetof(MaterialData, uv) == 64);
+static_assert(sizeof(MaterialData) == 18 * 16 && offsetof(MaterialData, uv) == 64);
 
 }  // namespace burnish::gpu_scene

@@ -42,6 +42,8 @@ void addTiles(Builder& b);
 void addOcclusion(Builder& b);
 void addLighting(Builder& b);
 void addBackground(Builder& b);
+// passes_transparent.cpp
+void addTransparent(Builder& b);
 // passes_post.cpp
 void addHostDraw(Builder& b);
 void addExposure(Builder& b);

@@ -21,6 +21,9 @@ Verdict bakedOcclusion(const Situation& s) {
 
 Verdict emissive(const Situation& s) { return provided(sceneCalls(s, Call::Emissive, "a material with emission would call for it"), s.final(), kNotShown); }
 
+Verdict alphaBlend(const Situation& s) { return provided(sceneCalls(s, Call::AlphaBlend, "a blended material would call for it"), s.final(), kNotShown); }
+Verdict glass(const Situation& s) { return provided(sceneCalls(s, Call::Glass, "a material with transmission would call for it"), s.final(), kNotShown); }
+
 std::string_view notLit(const Situation& s) { return s.hasDepth() ? kNotShown : "nothing to light"; }
 
 Verdict countedLights(const Situation& s, Call call, int count, std::string_view otherwise) {
@@ -102,6 +105,8 @@ constexpr EffectRow kRows[] = {
     {{"alpha_test", CalledBy::Scene, "holes where opacity is under the cutoff"}, alphaTest, false},
     {{"baked_occlusion", CalledBy::Scene, "occlusion maps"}, bakedOcclusion, false},
     {{"emissive", CalledBy::Scene, "surfaces that emit"}, emissive},
+    {{"alpha_blend", CalledBy::Scene, "surfaces drawn over what is behind them"}, alphaBlend},
+    {{"glass", CalledBy::Scene, "surfaces that refract what is behind them"}, glass},
     {{"directional_lights", CalledBy::Scene, "suns"}, directionalLights, false},
     {{"local_lights", CalledBy::Scene, "point and spot lights"}, localLights, false},
     {{"environment_lighting", CalledBy::Scene, "light of the surroundings"}, environmentLighting, false},

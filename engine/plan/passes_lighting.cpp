@@ -6,7 +6,7 @@ namespace burnish::plan {
 void addTiles(Builder& b) {
   const Situation& s = b.s;
   // Linear output keeps radiance in floats; a picture for a display is pre-exposed, so that half floats suffice.
-  if (s.final() && !s.developsInPlace()) b.target("light", s.options.output == Output::Linear ? "RGBA32F" : "RGBA16F", {"tone_mapping", "linear_output", "debug_view", "directional_lights", "local_lights", "environment_lighting", "background", "emissive"});
+  if (s.final() && !s.developsInPlace()) b.target("light", s.options.output == Output::Linear ? "RGBA32F" : "RGBA16F", {"tone_mapping", "linear_output", "debug_view", "directional_lights", "local_lights", "environment_lighting", "background", "emissive", "alpha_blend", "glass"});
   if (!s.hasTiles()) return;
   PassPlan& pass = b.pass("tiles", {"directional_lights", "local_lights", "environment_lighting", "screen_occlusion", "debug_view"}, {"depth", "lights"}, {"light lists"});
   if (!s.reducesDepth()) return;

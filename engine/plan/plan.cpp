@@ -25,7 +25,7 @@ const PassPlan* FramePlan::pass(std::string_view name) const { return byName(pas
 const TargetPlan* FramePlan::target(std::string_view name) const { return byName(targets, name); }
 
 FramePlan plan::planOf(const Scene& scene, std::span<const Seen> views, const Quality& quality, const Capabilities& caps, const PlanOptions& options, const Facts* whole) {
-  Situation situation{scene, views, quality, caps, options, factsOf(scene, views, quality), whole, {}};
+  Situation situation{scene, views, quality, caps, options, factsOf(scene, views, quality, options), whole, {}};
   judgeEffects(situation);
   Builder builder(situation);
   for (Step step : steps()) step(builder);
@@ -41,7 +41,7 @@ FramePlan makePlan(const Scene& scene, std::span<const View> views, const Qualit
     plan::look(scene, derived, views[i], options.size, quality, report, inView[i]);
     plan::lookEverywhere(scene, derived, views[i], options.size, quality, report, everywhere[i]);
   }
-  const plan::Facts whole = plan::factsOf(scene, everywhere, quality);
+  const plan::Facts whole = plan::factsOf(scene, everywhere, quality, options);
   return plan::planOf(scene, options.wholeScene ? everywhere : inView, quality, caps, options, &whole);
 }
 

@@ -11,7 +11,25 @@ namespace {
 
 std::string named(std::string_view kind, const std::string& name) { return name.empty() ? fmt::format("an unnamed {}", kind) : fmt::format("{} '{}'", kind, name); }
 
-void addBatch(const Scene& scene, const scene::VisibleInstance& seen, bool instanced, const Quality& quality, Facts& facts) {
+/// Which transparent surfaces there can be at all.
+struct Allowed {
+  bool blend, glass;
+  explicit Allowed(const PlanOptions& o) {
+    const bool final = o.debugView == DebugView::Final || o.debugView == DebugView::Nonfinite;
+    const auto listed = [&](std::string_view name) { return final && std::find(o.removed.begin(), o.removed.end(), name) == o.removed.end(); };
+    blend = listed("alpha_blend");
+    glass = listed("glass");
+  }
+};
+
+void addTransparent(const Material& material, const Mesh& mesh, const Quality& quality, Facts& facts) {
+  const TransparentVariant variant = transparentVariantOf(material, mesh, quality.occlusion != Occlusion::None);
+  const bool glass = scene::isGlass(material);
+  facts.call(glass ? Call::Glass : Call::AlphaBlend, "material", material.name, glass ? " is glass" : " is blended");
+  (glass ? facts.glass : facts.blended).insert(variant);
+}
+
+void addBatch(const Scene& scene, const scene::VisibleInstance& seen, bool instanced, const Quality& quality, Allowed allowed, Facts& facts) {
   static const Material kDefault;
   const Material* found = scene.materials.get(seen.instance->material);
   const Material& material = found ? *found : kDefault;
@@ -26,11 +44,26 @@ void addBatch(const Scene& scene, const scene::VisibleInstance& seen, bool insta
   if (material.twoSided) facts.call(Call::TwoSided, "material", material.name, " is two-sided");
   if (variant.occlusionMap) facts.call(Call::BakedOcclusion, "material", material.name, " has an occlusion map");
   if (variant.alphaTest) facts.call(Call::AlphaTest, "material", material.name, " is alpha tested");
+  if (drawnTransparent(material, allowed.blend, allowed.glass)) return addTransparent(material, *seen.mesh, quality, facts);
   facts.variants.insert(variant);
   if (!emits(material)) return;
   facts.call(Call::Emissive, "material", material.name, material.unlit ? " is unlit" : " emits");
   variant.occlusionMap = variant.packed = false;
   facts.emissiveVariants.insert(variant);
+}
+
+void addGroups(const Scene& scene, const Seen& view, Allowed allowed, Facts& facts) {
+  for (const scene::TransparentGroup& group : view.transparent) {
+    int surfaces = 0;
+    for (const scene::TransparentPart& part : group.parts) {
+      const Material* m = scene.materials.get(view.instances[part.instance].instance->material);
+      if (!m || !drawnTransparent(*m, allowed.blend, allowed.glass)) continue;
+      ++surfaces;
+      facts.refracts |= part.refracts;
+      facts.blurs |= part.blurs;
+    }
+    facts.peels |= group.peel && surfaces > 0;
+  }
 }
 
 void addLights(const Scene& scene, const scene::LightSet& lights, Facts& facts) {
@@ -57,6 +90,7 @@ void look(const Scene& scene, const scene::Derived& derived, const View& view, g
   out.frame = scene::frameOf(view, targetSize);
   scene::findVisible(scene, derived, out.frame, out.instances);
   out.batches = scene::batch(out.instances);
+  out.transparent = scene::orderTransparent(scene, derived, out.frame, out.instances);
   out.lights = scene::gatherLights(scene, derived, out.frame, quality, report);
 }
 
@@ -64,6 +98,7 @@ void lookEverywhere(const Scene& scene, const scene::Derived& derived, const Vie
   out.frame = scene::frameOf(view, targetSize);
   scene::findVisible(scene, derived, out.frame, out.instances, scene::Reach::Everywhere);
   out.batches = scene::batch(out.instances);
+  out.transparent = scene::orderTransparent(scene, derived, out.frame, out.instances);
   out.lights = scene::gatherLights(scene, derived, out.frame, quality, report, scene::Reach::Everywhere);
 }
 
@@ -72,10 +107,12 @@ void Facts::call(Call call, std::string_view kind, const std::string& name, std:
   if (reason.empty()) reason = fmt::format("{}{}", named(kind, name), because);
 }
 
-Facts factsOf(const Scene& scene, std::span<const Seen> views, const Quality& quality) {
+Facts factsOf(const Scene& scene, std::span<const Seen> views, const Quality& quality, const PlanOptions& options) {
   Facts facts;
+  const Allowed allowed(options);
   for (const Seen& view : views) {
-    for (const scene::Batch& b : view.batches) addBatch(scene, view.instances[b.first], b.count > 1, quality, facts);
+    for (const scene::Batch& b : view.batches) addBatch(scene, view.instances[b.first], b.count > 1, quality, allowed, facts);
+    addGroups(scene, view, allowed, facts);
     addLights(scene, view.lights, facts);
   }
   addEnvironment(scene.environment, facts);

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "plan/variants.h"
-#include "scene/visibility.h"
+#include "scene/transparency.h"
 
 namespace burnish::plan {
 
@@ -16,6 +16,7 @@ struct Seen {
   std::vector<scene::VisibleInstance> instances;  ///< nearest first, batches brought together
   std::vector<scene::Batch> batches;              ///< of `instances`
   scene::LightSet lights;
+  std::vector<scene::TransparentGroup> transparent;  ///< farthest first; indices into instances
 };
 /// What a view sees. `lights` is filled too; what is mended goes into the report.
 void look(const Scene& scene, const scene::Derived& derived, const View& view, glm::ivec2 targetSize, const Quality& quality, Report& report, Seen& out);
@@ -23,19 +24,23 @@ void look(const Scene& scene, const scene::Derived& derived, const View& view, g
 void lookEverywhere(const Scene& scene, const scene::Derived& derived, const View& view, glm::ivec2 targetSize, const Quality& quality, Report& report, Seen& out);
 
 /// What a scene holds that effects are called by.
-enum class Call : std::uint8_t { Geometry, Deformation, TwoSided, AlphaTest, BakedOcclusion, Emissive, Directional, Local, Environment, Background, Count };
+enum class Call : std::uint8_t { Geometry, Deformation, TwoSided, AlphaTest, BakedOcclusion, Emissive, Directional, Local, Environment, Background, AlphaBlend, Glass, Count };
 struct Facts {
   std::array<std::string, std::size_t(Call::Count)> why;  ///< the first thing that calls; empty: nothing does
   int directionalLights = 0, localLights = 0;
   bool spots = false;
-  std::set<GeometryVariant> variants, emissiveVariants;
   std::set<DeformVariant> deformVariants;
+  std::set<GeometryVariant> variants, emissiveVariants;  ///< of opaque surfaces
+  std::set<TransparentVariant> blended, glass;
+  bool peels = false;    ///< some transparent surfaces are in no order that holds for the whole picture
+  bool refracts = false, blurs = false;  ///< glass that reads the picture behind it; from its mip levels too
 
   [[nodiscard]] bool has(Call call) const { return !why[std::size_t(call)].empty(); }
   /// Keeps the first caller: an object of that kind and name, and why it calls.
   void call(Call call, std::string_view kind, const std::string& name, std::string_view because);
 };
-Facts factsOf(const Scene& scene, std::span<const Seen> views, const Quality& quality);
+/// `options`: transparent surfaces are opaque ones where their effect is taken off the list or the debug view shows none.
+Facts factsOf(const Scene& scene, std::span<const Seen> views, const Quality& quality, const PlanOptions& options);
 
 struct Situation {
   const Scene& scene;

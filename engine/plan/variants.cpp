@@ -7,6 +7,7 @@
 #include "plan/builder.h"
 #include "plan/rungs.h"
 #include "prefilter/dfg.h"
+#include "scene/transparency.h"
 
 namespace burnish::plan {
 GeometryVariant variantOf(const Material& m, const Mesh& mesh) {
@@ -20,7 +21,7 @@ GeometryVariant variantOf(const Material& m, const Mesh& mesh) {
   return v;
 }
 
-bool packsOcclusion(const Material& m) { return m.mapB && m.mapC && m.occlusionStrength > 0 && m.uvB == m.uvC && !m.alphaTest; }
+bool packsOcclusion(const Material& m) { return m.mapB && m.mapC && m.occlusionStrength > 0 && m.uvB == m.uvC && !m.alphaTest && !m.blend; }
 
 bool emits(const Material& m) { return m.unlit || m.emission.r > 0 || m.emission.g > 0 || m.emission.b > 0; }
 
@@ -34,6 +35,17 @@ ProgramPlan deformProgram(DeformVariant variant) {
   p.compute = "deform/deform.comp";
   p.defines = {define("MORPH", variant.morph), define("SKIN", variant.skin)};
   return p;
+}
+
+bool drawnTransparent(const Material& m, bool blend, bool glass) { return scene::isGlass(m) ? glass : m.blend && blend; }
+
+TransparentVariant transparentVariantOf(const Material& m, const Mesh& mesh, bool occlusion) {
+  TransparentVariant v;
+  v.geometry = occlusion ? variantOf(m, mesh) : variantOf(m, mesh).withoutOcclusion();
+  v.through = !scene::isGlass(m) ? Through::Blend : scene::refracts(m) ? Through::Refract : Through::Clear;
+  v.coverage = m.blend && (m.mapC || (m.useVertexColor && !mesh.colors.empty()));
+  v.emits = emits(m);
+  return v;
 }
 
 ProgramPlan geometryProgram(GeometryPass pass, GeometryVariant variant, bool occlusionTarget) {
@@ -109,6 +121,27 @@ ProgramPlan lightingProgram(int bucket, const Quality& quality, const LightingVa
   p.defines.push_back(define("TONEMAP", std::max(lighting.inPlace, 0)));
   std::sort(p.defines.begin(), p.defines.end());
   if (lighting.orthographic) p.name += "+ortho";
+  return p;
+}
+
+ProgramPlan transparentProgram(const TransparentVariant& v, const Quality& quality, const LightingVariant& lighting) {
+  ProgramPlan p = forwardProgram(v.geometry, quality, lighting);
+  p.name = "transparent" + p.name.substr(std::string_view("forward").size());
+  p.fragment = "forward/transparent.frag";
+  p.defines.push_back(define("COVERAGE", v.coverage));
+  p.defines.push_back(define("EMISSION", v.emits));
+  p.defines.push_back(define("THROUGH", int(v.through)));
+  std::sort(p.defines.begin(), p.defines.end());
+  if (v.coverage) p.name += "+coverage";
+  if (v.emits) p.name += "+emissive";
+  if (v.through != Through::Blend) p.name += v.through == Through::Clear ? "+clear" : "+refract";
+  return p;
+}
+
+ProgramPlan peelProgram(const TransparentVariant& v) {
+  ProgramPlan p = geometryProgram(GeometryPass::Pick, v.geometry.withoutOcclusion(), false);
+  p.name = "peel" + p.name.substr(std::string_view("pick").size());
+  p.fragment = "gbuffer/peel.frag";
   return p;
 }
 

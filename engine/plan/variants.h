@@ -10,6 +10,11 @@ struct GeometryVariant {
   bool occlusionMap = false;
   bool instanced = false;  ///< many at once: DrawData comes as vertex attributes
   bool packed = false;     ///< with occlusionMap: it rides in map B's third channel (gpu_scene), so that two lookups do
+  [[nodiscard]] GeometryVariant withoutOcclusion() const {
+    GeometryVariant v = *this;
+    v.occlusionMap = v.packed = false;
+    return v;
+  }
   friend auto operator<=>(const GeometryVariant&, const GeometryVariant&) = default;
 };
 GeometryVariant variantOf(const Material& material, const Mesh& mesh);
@@ -27,6 +32,18 @@ struct DeformVariant {
   friend auto operator<=>(const DeformVariant&, const DeformVariant&) = default;
 };
 ProgramPlan deformProgram(DeformVariant variant);
+/// How a transparent surface shows what is behind it.
+enum class Through : std::uint8_t { Blend, Clear, Refract };  ///< by opacity alone; a thin pane that tints; by a copy of the picture, shifted or blurred
+struct TransparentVariant {
+  GeometryVariant geometry;
+  Through through = Through::Blend;
+  bool coverage = false;  ///< map C or the vertex colours say how much of a pixel it covers
+  bool emits = false;
+  friend auto operator<=>(const TransparentVariant&, const TransparentVariant&) = default;
+};
+/// Whether a surface is drawn by the pass "transparent". `blend`, `glass`: whether those effects are on.
+bool drawnTransparent(const Material& material, bool blend, bool glass);
+TransparentVariant transparentVariantOf(const Material& material, const Mesh& mesh, bool occlusion);
 
 /// The passes that draw geometry.
 enum class GeometryPass : std::uint8_t { GBuffer, Emissive, Pick, Forward };
@@ -57,6 +74,9 @@ inline constexpr int kTileBuckets[] = {0, 1, 2, 3, 4, 6, 8, 10};
 inline constexpr int kLoop = -1;       ///< the program that loops over long lists of point lights
 inline constexpr int kLoopSpots = -2;  ///< the program that loops over lists with spots among them
 ProgramPlan lightingProgram(int bucket, const Quality& quality, const LightingVariant& lighting);
+/// A transparent surface's program, and the one that finds its depth when layers are peeled.
+ProgramPlan transparentProgram(const TransparentVariant& variant, const Quality& quality, const LightingVariant& lighting);
+ProgramPlan peelProgram(const TransparentVariant& variant);
 /// The forward reference path's program of a geometry variant.
 ProgramPlan forwardProgram(GeometryVariant variant, const Quality& quality, const LightingVariant& lighting);
 

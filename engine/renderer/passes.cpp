@@ -34,6 +34,11 @@ Result<void> forwardPass(PassCall& p) {
   return gbuffer::drawForward(p.c);
 }
 
+Result<void> transparentPass(PassCall& p) {
+  if (auto bound = lit<&LightingPass::bindForward>(p); !bound) return bound;
+  return p.modules.transparent().draw(p.c);
+}
+
 Result<void> hostDrawPass(PassCall& p) {
   FrameContext& c = p.c;
   auto framebuffer = c.targets.texture("depth") ? c.targets.framebuffer({"light"}, "depth") : c.targets.framebuffer({"light"});
@@ -93,6 +98,7 @@ constexpr PassRow kPasses[] = {
     {"emissive", emissivePass},
     {"background", lit<&LightingPass::drawBackground>},
     {"host_draw", hostDrawPass},
+    {"transparent", transparentPass},
     {"exposure", exposurePass},
     {"nonfinite_count", nonfiniteCountPass},
     {"bloom", bloomPass},
@@ -111,6 +117,11 @@ Result<LightingPass*> Modules::lighting() {
     lighting_ = std::move(*made);
   }
   return lighting_.get();
+}
+
+transparency::TransparentPass& Modules::transparent() {
+  if (!transparent_) transparent_ = std::make_unique<transparency::TransparentPass>(device_);
+  return *transparent_;
 }
 
 Result<void> runPass(const PassPlan& pass, PassCall& call, gl::FrameTimers& timers) {

@@ -5,6 +5,7 @@
 #include "gl/timers.h"
 #include "gpu_scene/frame.h"
 #include "lighting/lighting_pass.h"
+#include "transparency/transparent_pass.h"
 
 namespace burnish {
 
@@ -13,10 +14,12 @@ class Modules {
  public:
   explicit Modules(gl::Device& device) : device_(device) {}
   Result<lighting::LightingPass*> lighting();
+  transparency::TransparentPass& transparent();
 
  private:
   gl::Device& device_;
   std::unique_ptr<lighting::LightingPass> lighting_;
+  std::unique_ptr<transparency::TransparentPass> transparent_;
 };
 
 struct PassCall {

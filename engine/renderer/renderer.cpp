@@ -149,7 +149,7 @@ Result<void> Renderer::Impl::renderView(SceneState& state, const Scene& scene, c
     environment = *found;
   }
   FrameContext c{.device = *device, .plan = plan, .programs = *programSet, .targets = *targets, .gpuScene = state.gpu, .buffers = buffers, .scene = scene, .quality = quality, .view = view.frame,
-                 .visible = view.instances, .batches = view.batches, .lights = view.lights, .environment = environment, .size = target.size, .output = target.framebuffer, .report = report, .stats = stats};
+                 .visible = view.instances, .batches = view.batches, .lights = view.lights, .transparent = view.transparent, .environment = environment, .size = target.size, .output = target.framebuffer, .report = report, .stats = stats};
   const float display = quality.exposureEv ? exposureOf(*quality.exposureEv) : 1;
   if (request.output == Output::Display) c.preExposure = quality.exposureEv ? display : guessedExposure(view.lights, environment, scene.environment.scale);
   if (auto done = gpu_scene::uploadFrameData(c, display); !done) return done;

@@ -194,10 +194,8 @@ void MaterialConverter::mapC(const asset::Material& in, Material& out, const Slo
   out.alphaCutoff =
       in.alphaMode == asset::AlphaMode::Mask ? checked(in.alphaCutoff, 0, 1e6f, 0.5f, "alphaCutoff") : 0.5f;
   out.opacity = asksOpacity ? factor : 1;
-  out.alphaTest = asksOpacity && (inTexture || vertexAlpha || factor < out.alphaCutoff);
-  if (in.alphaMode == asset::AlphaMode::Blend && (inTexture || vertexAlpha || factor < 1))
-    warn(fmt::format("alpha blending is not there yet: it is drawn {}",
-                     out.alphaTest ? "where its opacity is at least 0.5, and there opaque" : "opaque"));
+  out.blend = in.alphaMode == asset::AlphaMode::Blend && (inTexture || vertexAlpha || factor < 1);
+  out.alphaTest = in.alphaMode == asset::AlphaMode::Mask && (inTexture || vertexAlpha || factor < out.alphaCutoff);
 
   Slot occlusion = out.unlit || in.occlusionTexture.strength == 0 ? Slot{} : pictures_.slot(in.occlusionTexture);
   if (occlusion && constantOf(pictures_, occlusion, 0) == 1.0f) occlusion = {};

@@ -23,6 +23,7 @@ void Derived::update(const Scene& scene, Report* report) {
       if (b.revision == revision) return;
       b.bounds = boundsOf(mesh);
       b.revision = revision;
+      b.shape.reset();
     });
     meshesRevision_ = scene.meshes.revision();
   }
@@ -62,6 +63,12 @@ const glm::dmat4& Derived::placement(Id<Instance> id, const Instance& instance) 
 const glm::dmat4& Derived::world(Id<Node> node) const {
   static const glm::dmat4 kIdentity(1);
   return node.index < world_.size() ? world_[node.index] : kIdentity;
+}
+
+MeshShape Derived::shape(Id<Mesh> id, const Mesh& mesh) const {
+  const MeshBounds& b = bounds_[id.index];
+  if (!b.shape) b.shape = shapeOf(mesh);
+  return *b.shape;
 }
 
 namespace {

@@ -4,11 +4,16 @@
 #include <burnish/plan.h>
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "scene/pose.h"
 
 namespace burnish::scene {
+
+/// What is known of a mesh's outside: all of it in one plane; a part of a convex body's surface, seen from outside or from inside; anything else.
+enum class MeshShape : std::uint8_t { Flat, Convex, Hollow, General };
+MeshShape shapeOf(const Mesh& mesh);
 
 /// World matrices, mesh bounds and poses of one scene, kept until the tables change.
 class Derived {
@@ -21,6 +26,8 @@ class Derived {
   [[nodiscard]] const Pose* pose(Id<Instance> instance) const { return instance.index < poses_.size() ? poses_[instance.index].get() : nullptr; }
   /// Where the instance's vertices (deformed ones, where it has a pose) stand: their space to the world.
   [[nodiscard]] const glm::dmat4& placement(Id<Instance> id, const Instance& instance) const;
+  /// Found when first asked for (transparent meshes alone want it).
+  [[nodiscard]] MeshShape shape(Id<Mesh> id, const Mesh& mesh) const;
 
  private:
   void updatePoses(const Scene& scene, Report* report);
@@ -30,6 +37,7 @@ class Derived {
     Bounds bounds;
     std::uint64_t extentsRevision = 0;
     std::unique_ptr<Extents> extents;  // only of meshes that are deformed
+    mutable std::optional<MeshShape> shape;
   };
   std::vector<glm::dmat4> world_;
   std::vector<MeshBounds> bounds_;

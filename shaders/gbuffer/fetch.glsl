@@ -1,11 +1,14 @@
 // What the maps and factors say of the surface at this fragment: the G-buffer writes it, the forward path shades it.
 // Definitions: GENERAL, ALPHA_TEST, OCCLUSION (0 none, 1 from map C, 2 none on this material, 3 from the third channel of map B, where gpu_scene packs it: the normal's z
-// follows from x and y).
+// follows from x and y), COVERAGE (1: blended surfaces cover the share of a pixel that map C and the vertex colours say; 0 where it is not defined).
+#ifndef COVERAGE
+#define COVERAGE 0
+#endif
 #include "gbuffer/material.glsl"
 
 layout(binding = UNIT_MAP_A) uniform sampler2D mapA;
 layout(binding = UNIT_MAP_B) uniform sampler2D mapB;
-#if OCCLUSION == 1 || ALPHA_TEST
+#if OCCLUSION == 1 || ALPHA_TEST || COVERAGE
 layout(binding = UNIT_MAP_C) uniform sampler2D mapC;
 #endif
 #if GENERAL
@@ -18,6 +21,7 @@ struct Fetched {
   float roughness;  // held at BURNISH_ROUGHNESS_MIN
   vec3 normal;      // camera-relative world space, any length
   float occlusion;
+  float coverage;
 };
 
 // The normal map's direction in camera-relative world space, from the interpolated frame. Without a tangent (zero) only the normal is left; where even that
@@ -50,7 +54,7 @@ Fetched fetchMaterial() {
     roughness = sqrt(sqrt(alpha2));
   }
 #endif
-#if OCCLUSION == 1 || ALPHA_TEST
+#if OCCLUSION == 1 || ALPHA_TEST || COVERAGE
   vec2 c = texture(mapC, mapUv(2)).rg;
 #endif
 #if ALPHA_TEST
@@ -59,6 +63,13 @@ Fetched fetchMaterial() {
   if (material.more.z > 0.5) opacity *= vertexColor.a;
 #endif
   if (opacity < material.emission.w) discard;
+#endif
+  f.coverage = 1.0;
+#if COVERAGE
+  f.coverage = c.g;
+#if GENERAL
+  if (material.more.z > 0.5) f.coverage *= vertexColor.a;
+#endif
 #endif
   // 128 is zero: 8-bit normal maps hold flat as (128, 128, 255).
   vec3 mapped = b.rgb * (255.0 / 127.0) - vec3(128.0 / 127.0);

@@ -35,6 +35,8 @@
 #define UNIT_BLOOM 0
 #define UNIT_DISPLAY 0
 #define UNIT_OCCLUSION 0  // what the denoise pass reads
+#define UNIT_SCENE_COLOR 7  // of the pass that draws transparent surfaces, which reads no light lists
+#define UNIT_SCENE_DEPTH 9  // and no exposure
 
 // Vertex attributes
 #define ATTRIBUTE_POSITION 0
@@ -78,5 +80,7 @@ struct MaterialData {
   vec4 uv[10];      // two rows for each of A, B, C, metal-rough, emissive: u' = dot(row.xyz, (u, v, 1)); row.w of the first: uv set
   vec4 conductorEta;  // rgb index of a named conductor, 0 elsewhere; w anisotropy (forward path)
   vec4 conductorK;    // rgb its extinction; w anisotropy's rotation, radians
+  vec4 glass;         // x transmission, y thickness (m, of the mesh), z index of refraction (0: from F0), w 1 when blended
+  vec4 attenuation;   // rgb absorption inside, 1/m
 };
 #endif

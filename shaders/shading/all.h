@@ -9,3 +9,4 @@
 #include "shading/sampling.h"
 #include "shading/environment.h"
 #include "shading/occlusion.h"
+#include "shading/transmission.h"

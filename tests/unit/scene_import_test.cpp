@@ -231,13 +231,19 @@ TEST_CASE("Alpha: mask, blend and vertex colours", "[import]") {
 
   m.name = "glass";
   m.alphaMode = asset::AlphaMode::Blend;
-  CHECK(!w.convert(m).alphaTest);  // opaque everywhere
-  CHECK(!w.warned("glass"));
+  CHECK(!w.convert(m).blend);  // opaque everywhere
+  CHECK(w.convert(m, true).blend);
   m.baseColor.a = 0.3f;
   out = w.convert(m);
-  CHECK(out.alphaTest);
-  CHECK(out.alphaCutoff == 0.5f);
-  CHECK(w.warned("material \"glass\": alpha blending is not there yet"));
+  CHECK(out.blend);
+  CHECK(!out.alphaTest);
+  CHECK(out.opacity == 0.3f);
+  m.baseColorTexture = ref(w.picture(varied(4, {20, 200, 20, 255})));
+  m.occlusionTexture = ref(w.picture(varied(4, {99, 99, 99})));
+  out = w.convert(m);
+  CHECK(out.blend);
+  CHECK(int(pixel(w.image(out.mapC), 0, 0)[1]) == 0xbf);
+  CHECK(!w.warned("glass"));
 }
 
 TEST_CASE("Occlusion of another mapping yields to opacity, and says so", "[import]") {

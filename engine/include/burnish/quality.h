@@ -55,6 +55,8 @@ struct Quality {
   Bloom bloom = Bloom::None;
   /// Share of the light that bloom scatters, 0 to 1.
   float bloomShare = 0.08f;
+  /// Transparent surfaces over one pixel that are sorted exactly, 1 to 64; what lies in front of them is blended unsorted, with a warning.
+  int transparentLayers = 8;
 
   ToneMap toneMap = ToneMap::Neutral;
   std::optional<float> exposureEv;  ///< EV100; empty: automatic from this picture alone

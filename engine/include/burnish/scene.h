@@ -152,13 +152,22 @@ struct Material {
   float roughness = 1;          ///< multiplies map B's roughness, 0..1
   float occlusionStrength = 1;  ///< 0..1, as glTF's
   glm::vec3 emission{0};        ///< cd/m², multiplies the emissive map
+  /// With blend: the pigment's share of what enters the surface, 0 (clear) to 1 (opaque); reflections keep their strength. With alphaTest: multiplies map C's opacity.
   float opacity = 1;
   float alphaCutoff = 0.5f;  ///< with alphaTest: fragments below are discarded
   bool alphaTest = false;
+  bool blend = false;  ///< drawn over what is behind it; map C's opacity and the vertex colour's alpha are the share of a pixel that the surface covers
   bool twoSided = false;
   bool unlit = false;  ///< KHR_materials_unlit: albedo is shown as emission of 1 cd/m² × `unlitScale`
   bool useVertexColor = true;
   float metalness = 0;  ///< factor for metalRoughMap only
+
+  // Glass: transmission above 0. It is drawn after everything opaque and shows what is behind it.
+  float transmission = 0;          ///< 0..1: the share of what enters the surface that crosses it, tinted by albedo; the rest meets the diffuse pigment
+  float thickness = 0;             ///< metres in the mesh's space along the normal, scaled as the instance is; 0: a thin pane, which shifts nothing and absorbs nothing
+  glm::vec3 attenuationColor{1};   ///< 0..1, what white light becomes over attenuationDistance inside
+  float attenuationDistance = 0;   ///< metres; 0 (or infinite): nothing is absorbed
+  float ior = 0;                   ///< of glass, at least 1: it then gives F0 too; 0: follows from the substance's F0
 
   // The G-buffer does not carry what follows: the deferred path draws isotropic lobes and Schlick's F of F0; the forward reference path uses it.
   /// Strength, 0 (none) to 1, as KHR_materials_anisotropy has it: with alpha = roughness², alpha_t = mix(alpha, 1, strength²) along the direction t and

@@ -1,0 +1,105 @@
+// What is seen through refracting glass: the picture behind it (a copy with mip levels), looked up where the ray that leaves the body meets what is opaque; the surroundings where that
+// lies outside the picture.
+layout(binding = UNIT_SCENE_COLOR) uniform sampler2D sceneColor;
+layout(binding = UNIT_SCENE_DEPTH) uniform sampler2D sceneDepth;
+
+// Steps that look for the point where the ray meets the depth buffer: one finds a plane across the view, each further one corrects for a slope.
+#define STEPS 4
+
+vec2 pixelOf(vec4 clip) { return (clip.xy * (0.5 / clip.w) + 0.5) * vec2(frame.viewport.zw); }
+
+float depthAt(vec2 local) {
+  vec2 held = clamp(local, vec2(0.0), vec2(frame.viewport.zw) - 1.0);  // model: the picture ends here
+  return texelFetch(sceneDepth, ivec2(held) + frame.viewport.xy, 0).r;
+}
+
+float distanceOf(float z) {
+#if ORTHOGRAPHIC
+  return frame.depthParams.x - z * frame.depthParams.y;
+#else
+  return frame.depthParams.x / (z + frame.depthParams.y);
+#endif
+}
+
+// Level whose texels spread light as far as wanted. A level k of the pyramid (forward/scene_blur.frag, then bilinear) has the variance 0.4167 · 4^k - 0.25 pixels²; a footprint of
+// f pixels stands for f²/4 of it.
+float levelOf(float blur, float footprint) { return 0.5 * log2(1.0 + (blur * blur + 0.25 * max(footprint * footprint - 1.0, 0.0)) * 2.4); }  // model: at least one pixel
+
+// What is not a number is black, what is infinite the most that the buffer holds.
+vec3 firm(vec3 c) {
+  c = mix(vec3(0.0), c, equal(c, c));
+  return min(c, vec3(frame.exposure.w));  // model: the buffer's end
+}
+
+vec3 pictureAt(vec2 local, float level) {
+  vec2 size = vec2(textureSize(sceneColor, 0));
+  float inset = 0.5 * exp2(ceil(level));
+  vec2 held = clamp(local, vec2(inset), max(vec2(frame.viewport.zw) - inset, vec2(inset)));  // model: the picture ends here
+  return firm(textureLod(sceneColor, held / size, level).rgb);
+}
+
+// The body is as round as its surface here, for its thickness: 1 for a ball. Signed, so that a hollow is no ball.
+float roundnessHere(vec3 p, float thickness) {
+  vec3 n = worldNormal * inversesqrt(max(dot(worldNormal, worldNormal), BURNISH_GUARD_LENGTH));
+  if (!gl_FrontFacing) n = -n;
+  vec3 nx = dFdx(n), ny = dFdy(n), px = dFdx(p), py = dFdy(p);
+  float area = dot(px, px) + dot(py, py);
+  return unitClamp(0.5 * thickness * (dot(nx, px) + dot(ny, py)) / max(area, BURNISH_GUARD_LENGTH));
+}
+
+// inside: the eye sees the far side's back: light enters there. Pre-exposed radiance, absorption taken off.
+vec3 behind(vec3 p, Surface m, float eta, float thickness, bool inside) {
+  vec3 way = vec3(0.0), direction = -m.v;
+  float path = 0.0, roundness = roundnessHere(p, thickness);
+  if (inside) {
+    if (refractSnell(m.v, m.n, 1.0 / eta, direction) <= 0.0) return vec3(0.0);  // total internal reflection
+  } else if (thickness > 0.0) {
+    path = throughBody(m.v, m.n, eta, thickness, roundness, way, direction);
+  }
+  vec3 leaves = p + way;
+  float depth = dot(leaves, frame.forward.xyz), slope = dot(direction, frame.forward.xyz);
+  vec2 here = gl_FragCoord.xy - vec2(frame.viewport.xy), at = here;
+  // Thin panes shift nothing.
+  bool shifts = thickness > 0.0 || inside;
+  vec4 from = frame.viewProjection * vec4(leaves, 1.0), along = frame.viewProjection * vec4(direction, 0.0);
+  float s = 0.0;
+  bool far = false, gone = shifts && slope <= BURNISH_GUARD_NOV;
+  if (shifts && !gone)
+    for (int i = 0; i < STEPS; ++i) {
+      float z = depthAt(at);
+#if ORTHOGRAPHIC
+      far = false;
+#else
+      far = z <= 0.0;
+#endif
+      s = max(distanceOf(max(z, BURNISH_GUARD_LENGTH)) - depth, 0.0) / slope;  // model: what is nearer than the exit is no hit
+      at = pixelOf(far ? along : from + along * s);
+    }
+  vec2 size = vec2(frame.viewport.zw), beyond = max(max(-at, at - size), vec2(0.0)) / size;  // model: 0 inside the picture
+  float outside = gone ? 1.0 : unitClamp(max(beyond.x, beyond.y) * 20.0);  // model: the surroundings take over within a twentieth of the picture
+  // What is nearer than the glass is not behind it.
+  if (gone || depthAt(at) > gl_FragCoord.z) at = here;
+  // Pixels that the ray's cone spans, and those over which roughness spreads it.
+  float perPixel = length(frame.rayX.xyz);
+#if ORTHOGRAPHIC
+  float reach = max(s, 0.0) + path, scale = 1.0 / perPixel;  // model
+  float footprint = length(dFdx(leaves) + dFdx(direction) * s) * scale, footprintY = length(dFdy(leaves) + dFdy(direction) * s) * scale;
+  float blur = scatteredAngle(m.alpha, eta) * reach * scale;
+#else
+  float scale = 1.0 / (perPixel * (far ? max(slope, BURNISH_GUARD_NOV) : max(depth + s * slope, BURNISH_GUARD_LENGTH)));
+  float footprint = far ? length(dFdx(direction)) : length(dFdx(leaves) + dFdx(direction) * s), footprintY = far ? length(dFdy(direction)) : length(dFdy(leaves) + dFdy(direction) * s);
+  footprint *= scale;
+  footprintY *= scale;
+  float blur = scatteredAngle(m.alpha, eta) / perPixel;  // as of what is far behind
+#endif
+  if (!shifts) footprint = footprintY = 1.0;
+  float last = float(textureQueryLevels(sceneColor) - 1);
+  vec3 seen = pictureAt(at, min(levelOf(blur, max(footprint, footprintY)), last));  // model: the pyramid ends
+#if ENVIRONMENT && RUNG_ENVIRONMENT_SPECULAR != ENVIRONMENT_SPECULAR_NONE
+  if (outside > 0.0) {
+    vec3 around = textureLod(environmentCube, direction, environmentLevel(sqrt(scatteredAlpha(m.alpha, eta)), lastLevel())).rgb * frame.background.w;
+    seen += (around - seen) * outside;
+  }
+#endif
+  return seen * absorbed(material.attenuation.rgb, path);
+}

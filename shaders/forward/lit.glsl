@@ -1,0 +1,56 @@
+// What the forward programs share: the surface at this fragment and its light from every light of the scene.
+// Definitions: DIRECTIONAL (count), ORTHOGRAPHIC, those of gbuffer/fetch.glsl and of lighting/shade.glsl.
+#define ANISOTROPIC 1
+#define ENVIRONMENT_UNIT UNIT_FORWARD_ENVIRONMENT
+#include "shading/bridge.h"
+#include "shading/all.h"
+#include "interface/layout.h"
+#include "interface/radiance.glsl"
+#include "gbuffer/fetch.glsl"
+layout(std140, binding = BINDING_FRAME) uniform Frame { FrameData frame; };
+layout(binding = UNIT_LIGHTS) uniform samplerBuffer lights;
+#if ENVIRONMENT
+vec3 ambientAt(vec3 n) {
+  return irradianceSh(n, frame.irradiance[0].rgb, frame.irradiance[1].rgb, frame.irradiance[2].rgb, frame.irradiance[3].rgb, frame.irradiance[4].rgb, frame.irradiance[5].rgb,
+                      frame.irradiance[6].rgb, frame.irradiance[7].rgb, frame.irradiance[8].rgb, RUNG_AMBIENT);
+}
+float lastLevel() { return frame.environment.x; }
+#endif
+#include "lighting/shade.glsl"
+
+Surface surfaceHere(Fetched f, vec3 toEye) {
+  float n2 = dot(f.normal, f.normal);
+  vec3 n = n2 > BURNISH_GUARD_LENGTH ? f.normal * inversesqrt(n2) : vec3(0.0, 0.0, 1.0);
+  Surface m = makeSurface(n, toEye, vec3(unitClamp(f.albedo.r), unitClamp(f.albedo.g), unitClamp(f.albedo.b)), unitClamp(f.code), alphaFromRoughness(f.roughness));
+  m.eta = material.conductorEta.rgb;
+  m.k = material.conductorK.rgb;
+  float c = cos(material.conductorK.w), s = sin(material.conductorK.w);
+  vec3 bitangent = cross(worldNormal, worldTangent.xyz) * worldTangent.w;
+  if (material.conductorEta.w > 0.0) setTangent(m, worldTangent.xyz * c + bitangent * s, material.conductorEta.w);
+  return m;
+}
+
+// Camera-relative world position (m) of this fragment, and the unit vector to the eye.
+vec3 positionHere(out vec3 toEye) {
+  vec3 ray = frame.rayOrigin.xyz + frame.rayX.xyz * (gl_FragCoord.x - float(frame.viewport.x)) + frame.rayY.xyz * (gl_FragCoord.y - float(frame.viewport.y));
+#if ORTHOGRAPHIC
+  toEye = -frame.forward.xyz;
+  return ray + frame.forward.xyz * (frame.depthParams.x - gl_FragCoord.z * frame.depthParams.y);
+#else
+  toEye = ray * -inversesqrt(dot(ray, ray));
+  return ray * (frame.depthParams.x / (gl_FragCoord.z + frame.depthParams.y));
+#endif
+}
+
+// Radiance toward the eye from directional, point and spot lights. row: findEnergy's.
+vec3 litByLights(Surface m, vec3 p, float row, float occlusion) {
+  vec3 sum = vec3(0.0);
+  for (int i = 0; i < DIRECTIONAL; ++i) sum += shadeLight(m, frame.directional[2 * i].xyz, row, occlusion) * frame.directional[2 * i + 1].rgb;
+  int count = int(frame.environment.y);
+  for (int i = 1; i <= count; ++i) {
+    vec4 place = texelFetch(lights, i * LIGHT_TEXELS);
+    vec3 one = punctual(m, p, place, texelFetch(lights, i * LIGHT_TEXELS + 1), row, occlusion);
+    sum += one * inCone(p, place, texelFetch(lights, i * LIGHT_TEXELS + 2), texelFetch(lights, i * LIGHT_TEXELS + 3).x);
+  }
+  return sum;
+}
