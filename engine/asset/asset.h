@@ -50,6 +50,11 @@ struct Material {
   TextureRef specularTexture, specularColorTexture;
   float anisotropy = 0;                   ///< KHR_materials_anisotropy: strength, 0..1
   float anisotropyRotation = 0;           ///< radians, counter-clockwise from the tangent
+  float transmission = 0;                 ///< KHR_materials_transmission, 0..1
+  float thickness = 0;                    ///< KHR_materials_volume: metres of the mesh
+  glm::vec3 attenuationColor{1};
+  float attenuationDistance = 0;          ///< metres; 0: infinite
+  TextureRef transmissionTexture, thicknessTexture;  ///< R, G
   const Substance* substance = nullptr;   ///< extras.burnish.substance: a row of the library; replaces metalness, IOR and, for conductors without a texture, base colour
   bool specularGlossiness = false;        ///< KHR_materials_pbrSpecularGlossiness: the next five fields replace metal and roughness
   glm::vec4 diffuse{1};

@@ -138,6 +138,18 @@ void parseMaterialExtensions(const At& at, Check& check, Material& m) {
     m.baseColorTexture =
         m.metallicRoughnessTexture = {};  // the fallback for readers without the extension: not worth decoding
   });
+  check.withExtension(at, "KHR_materials_transmission", [&](const At& e) {
+    check.known(e, {"transmissionFactor", "transmissionTexture"});
+    m.transmission = float(check.number(e, "transmissionFactor", 0, kUnit));
+    m.transmissionTexture = parseTextureRef(e, "transmissionTexture", check);
+  });
+  check.withExtension(at, "KHR_materials_volume", [&](const At& e) {
+    check.known(e, {"thicknessFactor", "thicknessTexture", "attenuationDistance", "attenuationColor"});
+    m.thickness = float(check.number(e, "thicknessFactor", 0, kNotNegative));
+    m.thicknessTexture = parseTextureRef(e, "thicknessTexture", check);
+    m.attenuationColor = vec3Of(e, "attenuationColor", check, glm::vec3(1));
+    m.attenuationDistance = float(check.number(e, "attenuationDistance", 0, kNotNegative));
+  });
   check.withExtension(at, "KHR_materials_anisotropy", [&](const At& e) {
     check.known(e, {"anisotropyStrength", "anisotropyRotation", "anisotropyTexture"});
     m.anisotropy = float(check.number(e, "anisotropyStrength", 0, kUnit));

@@ -136,6 +136,10 @@ Result<void> LightingPass::bindSurroundings(FrameContext& c, int environmentUnit
 Result<void> LightingPass::bindForward(FrameContext& c) {
   if (auto done = uploadLights(c); !done) return done;
   c.stats.lightsInView += int(c.lights.local.size());
+  return bindLights(c);
+}
+
+Result<void> LightingPass::bindLights(FrameContext& c) {
   c.device.gl.BindSamplers(0, 10, nullptr);
   lights_.bind(UNIT_LIGHTS);
   return bindSurroundings(c, UNIT_FORWARD_ENVIRONMENT);

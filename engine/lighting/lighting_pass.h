@@ -21,6 +21,8 @@ class LightingPass {
   Result<void> bindForward(gpu_scene::FrameContext& context);
   /// Pass "background": where nothing was drawn.
   Result<void> drawBackground(gpu_scene::FrameContext& context);
+  /// The same for a pass that comes after "tiles" or "forward", which have uploaded the lights (where neither is, there are none).
+  Result<void> bindLights(gpu_scene::FrameContext& context);
   /// Draws every tile with the bound program (debug view of the lists).
   Result<void> drawAllTiles(gpu_scene::FrameContext& context);
 

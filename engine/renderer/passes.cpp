@@ -35,7 +35,7 @@ Result<void> forwardPass(PassCall& p) {
 }
 
 Result<void> transparentPass(PassCall& p) {
-  if (auto bound = lit<&LightingPass::bindForward>(p); !bound) return bound;
+  if (auto bound = lit<&LightingPass::bindLights>(p); !bound) return bound;
   return p.modules.transparent().draw(p.c);
 }
 

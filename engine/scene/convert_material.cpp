@@ -36,6 +36,7 @@ MaterialConverter::Converted MaterialConverter::convert(int index, bool vertexAl
        vertexAlpha);
   emission(in, out);
   anisotropy(in, out);
+  glass(in, out);
   const Slot normal = normalSlot(in, out);
   std::optional<UvMapping> tangents;
   if (normal || out.anisotropy > 0) tangents = normal ? normal.mapping : UvMapping{};

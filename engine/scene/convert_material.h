@@ -50,6 +50,8 @@ class MaterialConverter {
   void mapC(const asset::Material& in, Material& out, const Slot& base, bool vertexAlpha);
   void emission(const asset::Material& in, Material& out);
   void anisotropy(const asset::Material& in, Material& out);
+  void glass(const asset::Material& in, Material& out);
+  float meanOf(const asset::TextureRef& texture, int channel, const char* what);
   Slot normalSlot(const asset::Material& in, const Material& out) const;
 
   // convert_specular.cpp

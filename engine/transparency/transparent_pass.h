@@ -10,7 +10,7 @@ namespace burnish::transparency {
 class TransparentPass {
  public:
   explicit TransparentPass(gl::Device& device) : device_(device) {}
-  /// Draws the view's groups into the light buffer, with what LightingPass::bindForward bound.
+  /// Draws the view's groups into the light buffer, with what LightingPass::bindLights bound.
   Result<void> draw(gpu_scene::FrameContext& context);
 
  private:

@@ -246,6 +246,38 @@ TEST_CASE("Alpha: mask, blend and vertex colours", "[import]") {
   CHECK(!w.warned("glass"));
 }
 
+TEST_CASE("Glass: transmission, volume and index of refraction", "[import]") {
+  World w;
+  asset::Material m;
+  m.name = "vase";
+  m.metallic = 0;
+  m.ior = 1.33f;
+  CHECK(w.convert(m).transmission == 0);
+  m.transmission = 0.8f;
+  m.thickness = 0.02f;
+  m.attenuationColor = {0.5f, 1, 0.25f};
+  m.attenuationDistance = 0.1f;
+  const Material out = w.convert(m);
+  CHECK(out.transmission == 0.8f);
+  CHECK(out.ior == 1.33f);
+  CHECK(out.thickness == 0.02f);
+  CHECK(out.attenuationColor == glm::vec3(0.5f, 1, 0.25f));
+  CHECK(out.attenuationDistance == 0.1f);
+  CHECK(w.report.empty());
+  m.transmissionTexture = ref(w.picture(constant(4, {51, 0, 0})));
+  CHECK(w.convert(m).transmission == Approx(0.16f));
+  CHECK(w.report.empty());
+  m.thicknessTexture = ref(w.picture(varied(4, {0, 40, 0})));
+  CHECK(w.convert(m).thickness < 0.02f);
+  CHECK(w.warned("thicknessTexture"));
+  m.specular = 0.5f;
+  w.convert(m);
+  CHECK(w.warned("KHR_materials_specular has no say on glass"));
+  m.unlit = true;
+  CHECK(w.convert(m).transmission == 0);
+  CHECK(w.warned("transmission is left out"));
+}
+
 TEST_CASE("Occlusion of another mapping yields to opacity, and says so", "[import]") {
   World w;
   asset::Material m;
