@@ -83,6 +83,40 @@ TEST_CASE("materials and their extensions", "[gltf]") {
         std::string::npos);
 }
 
+TEST_CASE("transmission and volume are read with their textures", "[gltf]") {
+  box().put("a.png", kPng);
+  Json file = {{"extensionsUsed", {"KHR_materials_transmission", "KHR_materials_volume"}},
+               {"extensionsRequired", {"KHR_materials_transmission"}},
+               {"images", {{{"uri", "a.png"}}}},
+               {"textures", {{{"source", 0}}}}};
+  Json transmission = {{"transmissionFactor", 0.75}, {"transmissionTexture", {{"index", 0}}}};
+  Json volume = {{"thicknessFactor", 0.25}, {"thicknessTexture", {{"index", 0}, {"texCoord", 1}}}, {"attenuationDistance", 2.5}, {"attenuationColor", {0.5, 1, 0.25}}};
+  const auto with = [&](const Json& t, const Json& v) {
+    file["materials"] = {{{"extensions", {{"KHR_materials_transmission", t}, {"KHR_materials_volume", v}}}}, {{"name", "plain"}}};
+    return readJson(file);
+  };
+  const Reading r = with(transmission, volume);
+  INFO(r.message());
+  REQUIRE(r.asset);
+  CHECK(r.report.empty());
+  const auto& m = r.asset->materials[0];
+  CHECK((m.transmission == 0.75f && m.thickness == 0.25f && m.attenuationDistance == 2.5f && m.attenuationColor == glm::vec3(0.5f, 1, 0.25f)));
+  CHECK((m.transmissionTexture.texture == 0 && m.thicknessTexture.texture == 0 && m.thicknessTexture.uvSet == 1));
+  CHECK((r.asset->materials[1].transmission == 0 && r.asset->materials[1].attenuationDistance == 0));
+  const auto fault = [&](Json& extension, const char* key, const Json& value) {
+    const Json kept = extension;
+    extension[key] = value;
+    const std::string message = with(transmission, volume).message();
+    INFO(message);
+    CHECK(message.find(key) != std::string::npos);
+    extension = kept;
+  };
+  fault(transmission, "transmissionFactor", 1.5);
+  fault(volume, "thicknessFactor", -1);
+  fault(volume, "attenuationDistance", "far");
+  fault(volume, "attenuationColor", {1, 2, 3});
+}
+
 TEST_CASE("anisotropy is read, its texture is left out", "[gltf]") {
   box().put("a.png", kPng);
   Json file = {{"extensionsUsed", {"KHR_materials_anisotropy"}},

@@ -264,7 +264,7 @@ TEST_CASE("Glass: transmission, volume and index of refraction", "[import]") {
   CHECK(out.attenuationColor == glm::vec3(0.5f, 1, 0.25f));
   CHECK(out.attenuationDistance == 0.1f);
   CHECK(w.report.empty());
-  m.transmissionTexture = ref(w.picture(constant(4, {51, 0, 0})));
+  m.transmissionTexture = ref(w.picture(solid(4, {51, 0, 0})));
   CHECK(w.convert(m).transmission == Approx(0.16f));
   CHECK(w.report.empty());
   m.thicknessTexture = ref(w.picture(varied(4, {0, 40, 0})));
