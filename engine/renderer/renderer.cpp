@@ -260,7 +260,7 @@ Result<Id<Instance>> Renderer::pick(const Scene& scene, const View& view, glm::i
   seen.frame = scene::narrowed(whole, local);
   scene::findVisible(scene, state.derived, seen.frame, seen.instances);
   seen.batches = scene::singles(seen.instances);  // the programs that draw ids draw one at a time
-  for (const plan::DeformVariant& v : plan::factsOf(scene, {&seen, 1}, {}).deformVariants) plan.programs.push_back(plan::deformProgram(v));
+  for (const plan::DeformVariant& v : plan::factsOf(scene, {&seen, 1}, {}, {}).deformVariants) plan.programs.push_back(plan::deformProgram(v));
   gpu_scene::ProgramSet programs(*m.device, *m.programs);
   gpu_scene::TargetPool targets(*m.device);
   if (auto done = programs.prepare(plan); !done) return fail(done.error());
