@@ -16,8 +16,9 @@ void main() {
       // What a picture is of stands mostly in its middle: the corners weigh 5 % of the centre.
       float weight = exp2(-8.6 * dot(unit - 0.5, unit - 0.5));
       vec3 c = texelFetch(lightBuffer, ivec2(at), 0).rgb;
-      // What is no number, or infinite, would turn the whole picture black: it is not metered.
-      if (any(isnan(c)) || any(isinf(c))) weight = 0.0, c = vec3(0.0);
+      // What is no number, or infinite, would turn the whole picture black: it is not metered. Nor is what is perfectly black, where there is nothing to see: a lamp before an empty
+      // background would be exposed for the background.
+      if (any(isnan(c)) || any(isinf(c)) || c == vec3(0.0)) weight = 0.0, c = vec3(0.0);
       total += weight;
       sum += weight * log2(max(dot(c, vec3(0.2126, 0.7152, 0.0722)) * frame.exposure.y, 1e-6));
     }

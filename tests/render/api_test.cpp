@@ -227,6 +227,22 @@ TEST_CASE("warm-up builds all that the frame needs") {
   CHECK(*again == 0);
 }
 
+TEST_CASE("automatic exposure meters what is there, not the black behind it") {
+  // A small lit square alone, and the same filling the view: the same exposure within a stop.
+  Scene s;
+  Material m;
+  m.albedo = vec3(0.5f);
+  place(s, quad({0, 0, 0}, {0.5f, 0, 0}, {0, 0.5f, 0}), m);
+  addLight(s, light(LightKind::Directional, vec3(1), 1000), {0, 0, 1}, {0, 0, -1});
+  Stage stage;
+  RenderRequest request;
+  request.countNonfinite = true;
+  const View far = lookAt({0, 0, 4}, {0, 0, 0}), near = lookAt({0, 0, 0.4}, {0, 0, 0});
+  const float small = stage.draw(s, {&far, 1}, kSize, {}, request).stats.exposureEv, whole = stage.draw(s, {&near, 1}, kSize, {}, request).stats.exposureEv;
+  CHECK(std::abs(small - whole) < 1);
+  CHECK(whole > 5);
+}
+
 TEST_CASE("two runs give the same bytes") {
   Pair p;
   for (int i = 0; i < 40; ++i) addLight(p.scene, light(LightKind::Point, vec3(1), 2, 3), {-2 + 0.1 * i, 0.5, 1});
