@@ -41,7 +41,7 @@ void addForward(Builder& b) {
   if (needsCube(s.quality, environment)) pass.reads.push_back("environment cube");
   if (needsDfg(s.quality, environment)) pass.reads.push_back("dfg");
   for (bool orthographic : s.projections())
-    for (const GeometryVariant& v : s.facts.variants) b.use(pass, forwardProgram(v, s.quality, s.lighting(orthographic)));
+    for (const GeometryVariant& v : s.facts.variants) b.use(pass, forwardProgram(v, s.quality, s.drawnLighting(orthographic)));
 }
 
 void addEmissive(Builder& b) {

@@ -31,7 +31,7 @@ void addTransparent(Builder& b) {
     }
   for (const std::set<TransparentVariant>* variants : {&s.facts.blended, &s.facts.glass})
     for (const TransparentVariant& v : *variants) {
-      for (bool orthographic : s.projections()) b.use(pass, transparentProgram(v, s.quality, s.lighting(orthographic)));
+      for (bool orthographic : s.projections()) b.use(pass, transparentProgram(v, s.quality, s.drawnLighting(orthographic)));
       if (s.facts.peels) b.use(pass, peelProgram(v));
     }
 }

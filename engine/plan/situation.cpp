@@ -135,4 +135,10 @@ LightingVariant Situation::lighting(bool orthographic) const {
   return {on("directional_lights") ? std::min(facts.directionalLights, MAX_DIRECTIONAL) : 0, on("environment_lighting"), on("baked_occlusion") || on("screen_occlusion"), orthographic, developsInPlace() ? int(quality.toneMap) : -1};
 }
 
+LightingVariant Situation::drawnLighting(bool orthographic) const {
+  LightingVariant variant = lighting(orthographic);
+  variant.occlusion = on("baked_occlusion");
+  return variant;
+}
+
 }  // namespace burnish::plan

@@ -68,6 +68,8 @@ struct Situation {
   /// The projections that views have: perspective (false), orthographic (true).
   [[nodiscard]] std::vector<bool> projections() const;
   [[nodiscard]] LightingVariant lighting(bool orthographic) const;
+  /// Of surfaces that are shaded where they are drawn: occlusion found on the screen is none of theirs.
+  [[nodiscard]] LightingVariant drawnLighting(bool orthographic) const;
 };
 
 }  // namespace burnish::plan

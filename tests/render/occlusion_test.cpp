@@ -371,3 +371,32 @@ TEST_CASE("screen occlusion: what calls for it, and what it darkens", "[occlusio
   const View above = lookAt({0, 2, 1}, {0, 0, 0});
   CHECK(difference(occlusionOf(stage, scene, above, size, with(Occlusion::Screen8)), occlusionOf(stage, scene, above, size, with(Occlusion::Baked)), 0).largest < 1.1 / 255);
 }
+
+TEST_CASE("screen occlusion: what is drawn over the picture neither takes it nor loses the light that it holds back elsewhere", "[occlusion]") {
+  Stage stage;
+  constexpr glm::ivec2 size{64, 64};
+  Corner corner(2);
+  corner.scene.environment.color = vec3(1);
+  const View view = lookAt({0.3, 1, 1.4}, {0, 0.1, 0.1}, {0, 1, 0}, 0.8f);
+  Material pane = matte();
+  pane.blend = true;
+  pane.albedo = {0.9f, 0.2f, 0.1f};
+  place(corner.scene, quad({0.3f, 0.02f, 0.3f}, {0, 0, 0.2f}, {0.2f, 0, 0}), pane);  // over the floor, all of it covered
+  const Picture screen = stage.linear(corner.scene, view, size, with(Occlusion::Screen8)), plain = stage.linear(corner.scene, view, size, with(Occlusion::Baked));
+  CHECK(stage.renderer->lastPlan().on("alpha_blend"));
+  int panes = 0, darker = 0;
+  double worst = 0;
+  for (int y = 0; y < size.y; ++y)
+    for (int x = 0; x < size.x; ++x) {
+      const dvec3 a = screen.at(x, y), b = plain.at(x, y);
+      if (b.x > 2 * b.y) {
+        ++panes;
+        worst = std::max(worst, glm::length(a - b) / glm::length(b));
+      } else {
+        darker += a.y < 0.95 * b.y;
+      }
+    }
+  CHECK(worst < 1e-4);
+  CHECK(panes > 100);
+  CHECK(darker > 100);
+}
