@@ -45,6 +45,7 @@ TransparentVariant transparentVariantOf(const Material& m, const Mesh& mesh, boo
   v.through = !scene::isGlass(m) ? Through::Blend : scene::refracts(m) ? Through::Refract : Through::Clear;
   v.coverage = m.blend && (m.mapC || (m.useVertexColor && !mesh.colors.empty()));
   v.emits = emits(m);
+  v.faint = v.through != Through::Blend && m.ior >= 1 && m.ior < 1.34f && m.transmission < 1;
   return v;
 }
 
@@ -130,10 +131,12 @@ ProgramPlan transparentProgram(const TransparentVariant& v, const Quality& quali
   p.fragment = "forward/transparent.frag";
   p.defines.push_back(define("COVERAGE", v.coverage));
   p.defines.push_back(define("EMISSION", v.emits));
+  p.defines.push_back(define("FAINT", v.faint));
   p.defines.push_back(define("THROUGH", int(v.through)));
   std::sort(p.defines.begin(), p.defines.end());
   if (v.coverage) p.name += "+coverage";
   if (v.emits) p.name += "+emissive";
+  if (v.faint) p.name += "+faint";
   if (v.through != Through::Blend) p.name += v.through == Through::Clear ? "+clear" : "+refract";
   return p;
 }

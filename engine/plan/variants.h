@@ -39,6 +39,7 @@ struct TransparentVariant {
   Through through = Through::Blend;
   bool coverage = false;  ///< map C or the vertex colours say how much of a pixel it covers
   bool emits = false;
+  bool faint = false;     ///< glass whose index is under water's, and which has a diffuse share
   friend auto operator<=>(const TransparentVariant&, const TransparentVariant&) = default;
 };
 /// Whether a surface is drawn by the pass "transparent". `blend`, `glass`: whether those effects are on.

@@ -22,8 +22,8 @@ float distanceOf(float z) {
 }
 
 // Level whose texels spread light as far as wanted. A level k of the pyramid (forward/scene_blur.frag, then bilinear) has the variance 0.4167 · 4^k - 0.25 pixels²; a footprint of
-// f pixels stands for f²/4 of it.
-float levelOf(float blur, float footprint) { return 0.5 * log2(1.0 + (blur * blur + 0.25 * max(footprint * footprint - 1.0, 0.0)) * 2.4); }  // model: at least one pixel
+// f pixels stands for f²/4 of it, less what makes up to 1.2 pixels one (0.375).
+float levelOf(float blur, float footprint) { return 0.5 * log2(1.0 + max(blur * blur + 0.25 * footprint * footprint - 0.375, 0.0) * 2.4); }  // model: a sharp lookup is one pixel
 
 // What is not a number is black, what is infinite the most that the buffer holds.
 vec3 firm(vec3 c) {
@@ -75,26 +75,30 @@ vec3 behind(vec3 p, Surface m, float eta, float thickness, bool inside) {
       s = max(distanceOf(max(z, BURNISH_GUARD_LENGTH)) - depth, 0.0) / slope;  // model: what is nearer than the exit is no hit
       at = pixelOf(far ? along : from + along * s);
     }
+  vec2 met = at;
   vec2 size = vec2(frame.viewport.zw), beyond = max(max(-at, at - size), vec2(0.0)) / size;  // model: 0 inside the picture
   float outside = gone ? 1.0 : unitClamp(max(beyond.x, beyond.y) * 20.0);  // model: the surroundings take over within a twentieth of the picture
   // What is nearer than the glass is not behind it.
   if (gone || depthAt(at) > gl_FragCoord.z) at = here;
-  // Pixels that the ray's cone spans, and those over which roughness spreads it.
+  // Nor is what the bilinear lookup would mix in from beside it.
+  vec4 around4 = textureGather(sceneDepth, (at + vec2(frame.viewport.xy)) / vec2(textureSize(sceneDepth, 0)));
+  if (any(greaterThan(around4, vec4(gl_FragCoord.z)))) at = floor(at) + 0.5;
+  // Pixels that the ray's cone spans, seen from the eye, and those over which roughness spreads it.
   float perPixel = length(frame.rayX.xyz);
 #if ORTHOGRAPHIC
-  float reach = max(s, 0.0) + path, scale = 1.0 / perPixel;  // model
-  float footprint = length(dFdx(leaves) + dFdx(direction) * s) * scale, footprintY = length(dFdy(leaves) + dFdy(direction) * s) * scale;
-  float blur = scatteredAngle(m.alpha, eta) * reach * scale;
+  vec3 sight = frame.forward.xyz;
+  float scale = 1.0 / perPixel, blur = scatteredAngle(m.alpha, eta) * (s + path) * scale;
 #else
-  float scale = 1.0 / (perPixel * (far ? max(slope, BURNISH_GUARD_NOV) : max(depth + s * slope, BURNISH_GUARD_LENGTH)));
-  float footprint = far ? length(dFdx(direction)) : length(dFdx(leaves) + dFdx(direction) * s), footprintY = far ? length(dFdy(direction)) : length(dFdy(leaves) + dFdy(direction) * s);
-  footprint *= scale;
-  footprintY *= scale;
-  float blur = scatteredAngle(m.alpha, eta) / perPixel;  // as of what is far behind
+  vec3 hit = far ? direction : leaves + direction * s, sight = hit * inversesqrt(max(dot(hit, hit), BURNISH_GUARD_LENGTH));
+  float scale = 1.0 / (perPixel * max(dot(hit, frame.forward.xyz), BURNISH_GUARD_NOV)), blur = scatteredAngle(m.alpha, eta) / perPixel;  // as of what is far behind
 #endif
-  if (!shifts) footprint = footprintY = 1.0;
+  vec3 acrossX = far ? dFdx(direction) : dFdx(leaves) + dFdx(direction) * s, acrossY = far ? dFdy(direction) : dFdy(leaves) + dFdy(direction) * s;
+  float footprint = length(acrossX - sight * dot(sight, acrossX)) * scale, footprintY = length(acrossY - sight * dot(sight, acrossY)) * scale;
+  // The lower of two estimates: by how far the places that neighbours see lie apart, which is too much across an edge of the depth buffer, and by how their rays part over the
+  // same way, which is too much on outlines, where a neighbour's surface may be anywhere.
+  footprint = shifts ? min(max(footprint, footprintY), max(length(dFdx(met)), length(dFdy(met)))) : 1.0;  // model: the lower estimate
   float last = float(textureQueryLevels(sceneColor) - 1);
-  vec3 seen = pictureAt(at, min(levelOf(blur, max(footprint, footprintY)), last));  // model: the pyramid ends
+  vec3 seen = pictureAt(at, min(levelOf(blur, footprint), last));  // model: the pyramid ends
 #if ENVIRONMENT && RUNG_ENVIRONMENT_SPECULAR != ENVIRONMENT_SPECULAR_NONE
   if (outside > 0.0) {
     vec3 around = textureLod(environmentCube, direction, environmentLevel(sqrt(scatteredAlpha(m.alpha, eta)), lastLevel())).rgb * frame.background.w;

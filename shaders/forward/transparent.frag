@@ -1,5 +1,6 @@
 // A transparent surface over what is behind it: what it adds, and by what it multiplies the picture (dual-source blending; docs/shading.md, "Transparent surfaces").
-// Definitions: those of forward/lit.glsl, COVERAGE, EMISSION (1: it emits or is unlit), THROUGH (0 blended, 1 a clear pane, 2 refracts: forward/behind.glsl).
+// Definitions: those of forward/lit.glsl, COVERAGE, EMISSION (1: it emits or is unlit), THROUGH (0 blended, 1 a clear pane, 2 refracts: forward/behind.glsl),
+// FAINT (1: its reflections are scaled down and it has diffuse light, which is not).
 #include "forward/lit.glsl"
 #define THROUGH_BLEND 0
 #define THROUGH_CLEAR 1
@@ -36,6 +37,15 @@ vec3 reflectedShare(Surface m) {
 #endif
 }
 
+// Light of lights and surroundings. seen: the surface as preintegrated reflections take it.
+vec3 lit(Surface m, Surface seen, vec3 p, float row, float occlusion) {
+  vec3 sum = litByLights(m, p, row, occlusion);
+#if ENVIRONMENT
+  sum += surroundings(seen, occlusion);
+#endif
+  return sum;
+}
+
 void main() {
   Fetched f = fetchMaterial();
   vec3 toEye;
@@ -61,26 +71,22 @@ void main() {
   m.diffuse -= through;
 #endif
   float row = findEnergy(m);
-  vec3 sum = litByLights(m, p, row, f.occlusion);
-#if THROUGH == THROUGH_BLEND
-  vec3 share = vec3(1.0) - reflectedShare(m);
-#else
-  Surface smoothed = m;
-  smoothed.f0 = vec3(schlickF0(m.f0.x, m.nov, RUNG_FRESNEL), schlickF0(m.f0.y, m.nov, RUNG_FRESNEL), schlickF0(m.f0.z, m.nov, RUNG_FRESNEL));
+  Surface seen = m;
+#if THROUGH != THROUGH_BLEND && RUNG_ENVIRONMENT_SPECULAR != ENVIRONMENT_SPECULAR_SAMPLED
+  seen.f0 = vec3(schlickF0(m.f0.x, m.nov, RUNG_FRESNEL), schlickF0(m.f0.y, m.nov, RUNG_FRESNEL), schlickF0(m.f0.z, m.nov, RUNG_FRESNEL));
+#endif
+  vec3 sum = lit(m, seen, p, row, f.occlusion) * reflects;
+#if FAINT
+  // Diffuse light is what is left when reflections are taken away.
+  Surface bare = m, bareSeen = seen;
+  bare.diffuse = bareSeen.diffuse = vec3(0.0);
+  sum += (lit(m, seen, p, row, f.occlusion) - lit(bare, bareSeen, p, row, f.occlusion)) * (1.0 - reflects);
+#endif
 #if DFG
-  vec3 share = vec3(1.0) - reflectedShare(smoothed) * reflects;
+  vec3 share = vec3(1.0) - reflectedShare(seen) * reflects;
 #else
   vec3 share = vec3(1.0) - reflectedShare(m) * reflects;
 #endif
-#endif
-#if ENVIRONMENT
-#if THROUGH == THROUGH_BLEND || RUNG_ENVIRONMENT_SPECULAR == ENVIRONMENT_SPECULAR_SAMPLED
-  sum += surroundings(m, f.occlusion);
-#else
-  sum += surroundings(smoothed, f.occlusion);
-#endif
-#endif
-  sum *= reflects;
 #if EMISSION
   vec3 emitted = texture(mapEmissive, mapUv(4)).rgb * material.emission.rgb;
   if (material.more.y > 0.5) {
