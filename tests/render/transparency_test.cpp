@@ -294,6 +294,23 @@ TEST_CASE("transparent surfaces in several views, at an offset, beside opaque on
   CHECK(scene.instances.get(*picked) != nullptr);
 }
 
+TEST_CASE("occlusion found on the screen leaves blended surfaces as they are", "[transparency]") {
+  Stage stage;
+  Scene scene = crossing({0.9f, 0.1f, 0.1f}, {0.1f, 0.2f, 0.9f}, 0.6f);
+  Material m;
+  m.blend = true;
+  m.opacity = 0.5f;
+  place(scene, sphere(0.3f, 16, 32), m, translation({1, 0.4, 0}));
+  addLight(scene, light(LightKind::Directional, vec3(1), 10), {}, {0, 0, -1});
+  scene.environment.color = vec3(1);
+  const View view = lookAt({0, 0, 3}, {0, 0, 0});
+  Quality screen;
+  screen.occlusion = Occlusion::Screen4;
+  const Picture a = stage.linear(scene, view, kSize), b = stage.linear(scene, view, kSize, screen);
+  CHECK(stage.renderer->lastPlan().on("screen_occlusion"));
+  CHECK(difference(a, b, 1e-4).largest < 1e-4);
+}
+
 TEST_CASE("a furnace: a blended surface never gives more than it gets", "[transparency]") {
   Stage stage;
   Scene scene;
