@@ -35,7 +35,11 @@ Material veil(vec3 color, float opacity) {
 /// A wall of known radiance behind everything.
 void addWall(Scene& scene, vec3 radiance, float z = -3) { place(scene, quad({0, 0, z}, {20, 0, 0}, {0, 20, 0}), shining(radiance)); }
 
-double largest(const dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+/// What is not finite is larger than anything.
+double largest(const dvec3& v) {
+  const double sum = std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
+  return sum < 1e300 ? std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}) : 1e300;
+}
 
 }  // namespace
 
