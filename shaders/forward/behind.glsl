@@ -47,58 +47,85 @@ float roundnessHere(vec3 p, float thickness) {
   return unitClamp(0.5 * thickness * (dot(nx, px) + dot(ny, py)) / max(area, BURNISH_GUARD_LENGTH));
 }
 
+// A ray that leaves the glass, and where it meets what is opaque.
+struct Meeting {
+  vec2 at;     // pixel of the view
+  vec2 first;  // the first guess at it, from the depth behind this pixel
+  float way;   // m from where it leaves
+  bool far;    // it meets nothing: the background
+  bool gone;   // it leads away from the picture's side
+};
+
+Meeting meet(vec3 leaves, vec3 direction) {
+  float depth = dot(leaves, frame.forward.xyz), slope = dot(direction, frame.forward.xyz);
+  vec4 from = frame.viewProjection * vec4(leaves, 1.0), along = frame.viewProjection * vec4(direction, 0.0);
+  vec2 here = gl_FragCoord.xy - vec2(frame.viewport.xy);
+  Meeting m = Meeting(here, here, 0.0, false, slope <= BURNISH_GUARD_NOV);
+  if (m.gone) return m;
+  for (int i = 0; i < STEPS; ++i) {
+    float z = depthAt(m.at);
+#if !ORTHOGRAPHIC
+    m.far = z <= 0.0;
+#endif
+    m.way = max(distanceOf(max(z, BURNISH_GUARD_LENGTH)) - depth, 0.0) / slope;  // model: what is nearer than the exit is no hit
+    m.at = pixelOf(m.far ? along : from + along * m.way);
+    if (i == 0) m.first = m.at;
+  }
+  return m;
+}
+
+// What is nearer than the glass is not behind it, nor what the bilinear lookup would mix in from beside it.
+vec2 behindHere(vec2 at) {
+  if (depthAt(at) > gl_FragCoord.z) at = gl_FragCoord.xy - vec2(frame.viewport.xy);
+  vec4 four = textureGather(sceneDepth, (at + vec2(frame.viewport.xy)) / vec2(textureSize(sceneDepth, 0)));
+  return any(greaterThan(four, vec4(gl_FragCoord.z))) ? floor(at) + 0.5 : at;
+}
+
+// Pixels that the ray's cone spans, seen from the eye. The lower of two estimates: by how far the places that neighbours see lie apart, which is too much across an edge of the depth
+// buffer, and by how their rays part over the same way, which is too much on outlines, where a neighbour's surface may be anywhere.
+float footprintOf(Meeting m, vec3 leaves, vec3 direction, float perPixel) {
+  vec3 x = m.far ? dFdx(direction) : dFdx(leaves) + dFdx(direction) * m.way, y = m.far ? dFdy(direction) : dFdy(leaves) + dFdy(direction) * m.way;
+#if ORTHOGRAPHIC
+  vec3 sight = frame.forward.xyz;
+  float scale = 1.0 / perPixel;
+#else
+  vec3 hit = m.far ? direction : leaves + direction * m.way, sight = hit * inversesqrt(max(dot(hit, hit), BURNISH_GUARD_LENGTH));
+  float scale = 1.0 / (perPixel * max(dot(hit, frame.forward.xyz), BURNISH_GUARD_NOV));
+#endif
+  x -= sight * dot(sight, x);
+  y -= sight * dot(sight, y);
+  return min(sqrt(max(dot(x, x), dot(y, y))) * scale, max(length(dFdx(m.at)), length(dFdy(m.at))));  // model: the lower estimate
+}
+
 // inside: the eye sees the far side's back: light enters there. Pre-exposed radiance, absorption taken off.
 vec3 behind(vec3 p, Surface m, float eta, float thickness, bool inside) {
   vec3 way = vec3(0.0), direction = -m.v;
-  float path = 0.0, roundness = roundnessHere(p, thickness);
+  float path = 0.0, roundness = roundnessHere(p, thickness), perPixel = length(frame.rayX.xyz);
   if (inside) {
     if (refractSnell(m.v, m.n, 1.0 / eta, direction) <= 0.0) return vec3(0.0);  // total internal reflection
   } else if (thickness > 0.0) {
     path = throughBody(m.v, m.n, eta, thickness, roundness, way, direction);
   }
   vec3 leaves = p + way;
-  float depth = dot(leaves, frame.forward.xyz), slope = dot(direction, frame.forward.xyz);
-  vec2 here = gl_FragCoord.xy - vec2(frame.viewport.xy), at = here;
+  Meeting met = meet(leaves, direction);
+  float footprint = footprintOf(met, leaves, direction, perPixel);
+  // Pixels over which roughness spreads it; a perspective's as of what is far behind.
+  float blur = scatteredAngle(m.alpha, eta) / perPixel;
+#if ORTHOGRAPHIC
+  blur *= met.way + path;
+#endif
+  // Exact places jump at every edge of the depth buffer: blurred lookups take the first guess.
+  vec2 at = met.at + (met.first - met.at) * unitClamp((blur - 4.0) * 0.125);
   // Thin panes shift nothing.
-  bool shifts = thickness > 0.0 || inside;
-  vec4 from = frame.viewProjection * vec4(leaves, 1.0), along = frame.viewProjection * vec4(direction, 0.0);
-  float s = 0.0;
-  bool far = false, gone = shifts && slope <= BURNISH_GUARD_NOV;
-  if (shifts && !gone)
-    for (int i = 0; i < STEPS; ++i) {
-      float z = depthAt(at);
-#if ORTHOGRAPHIC
-      far = false;
-#else
-      far = z <= 0.0;
-#endif
-      s = max(distanceOf(max(z, BURNISH_GUARD_LENGTH)) - depth, 0.0) / slope;  // model: what is nearer than the exit is no hit
-      at = pixelOf(far ? along : from + along * s);
-    }
-  vec2 met = at;
+  if (thickness <= 0.0) {
+    at = gl_FragCoord.xy - vec2(frame.viewport.xy);
+    met.gone = false;
+    footprint = 1.0;
+  }
   vec2 size = vec2(frame.viewport.zw), beyond = max(max(-at, at - size), vec2(0.0)) / size;  // model: 0 inside the picture
-  float outside = gone ? 1.0 : unitClamp(max(beyond.x, beyond.y) * 20.0);  // model: the surroundings take over within a twentieth of the picture
-  // What is nearer than the glass is not behind it.
-  if (gone || depthAt(at) > gl_FragCoord.z) at = here;
-  // Nor is what the bilinear lookup would mix in from beside it.
-  vec4 around4 = textureGather(sceneDepth, (at + vec2(frame.viewport.xy)) / vec2(textureSize(sceneDepth, 0)));
-  if (any(greaterThan(around4, vec4(gl_FragCoord.z)))) at = floor(at) + 0.5;
-  // Pixels that the ray's cone spans, seen from the eye, and those over which roughness spreads it.
-  float perPixel = length(frame.rayX.xyz);
-#if ORTHOGRAPHIC
-  vec3 sight = frame.forward.xyz;
-  float scale = 1.0 / perPixel, blur = scatteredAngle(m.alpha, eta) * (s + path) * scale;
-#else
-  vec3 hit = far ? direction : leaves + direction * s, sight = hit * inversesqrt(max(dot(hit, hit), BURNISH_GUARD_LENGTH));
-  float scale = 1.0 / (perPixel * max(dot(hit, frame.forward.xyz), BURNISH_GUARD_NOV)), blur = scatteredAngle(m.alpha, eta) / perPixel;  // as of what is far behind
-#endif
-  vec3 acrossX = far ? dFdx(direction) : dFdx(leaves) + dFdx(direction) * s, acrossY = far ? dFdy(direction) : dFdy(leaves) + dFdy(direction) * s;
-  float footprint = length(acrossX - sight * dot(sight, acrossX)) * scale, footprintY = length(acrossY - sight * dot(sight, acrossY)) * scale;
-  // The lower of two estimates: by how far the places that neighbours see lie apart, which is too much across an edge of the depth buffer, and by how their rays part over the
-  // same way, which is too much on outlines, where a neighbour's surface may be anywhere.
-  footprint = shifts ? min(max(footprint, footprintY), max(length(dFdx(met)), length(dFdy(met)))) : 1.0;  // model: the lower estimate
+  float outside = met.gone ? 1.0 : unitClamp(max(beyond.x, beyond.y) / max(0.05, 4.0 * blur / size.y));  // model: the surroundings take over within a twentieth of the picture, or within what is blurred
   float last = float(textureQueryLevels(sceneColor) - 1);
-  vec3 seen = pictureAt(at, min(levelOf(blur, footprint), last));  // model: the pyramid ends
+  vec3 seen = pictureAt(behindHere(at), min(levelOf(blur, footprint), last));  // model: the pyramid ends
 #if ENVIRONMENT && RUNG_ENVIRONMENT_SPECULAR != ENVIRONMENT_SPECULAR_NONE
   if (outside > 0.0) {
     vec3 around = textureLod(environmentCube, direction, environmentLevel(sqrt(scatteredAlpha(m.alpha, eta)), lastLevel())).rgb * frame.background.w;
