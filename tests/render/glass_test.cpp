@@ -2,36 +2,12 @@
 #include <catch2/catch.hpp>
 
 #include "reference/shading.h"
-#include "render/workshop.h"
+#include "render/transparent.h"
 
 namespace burnish::test {
 namespace {
 
 constexpr glm::ivec2 kSize{120, 90};
-
-Quality onPath(Path path, Fresnel fresnel = Fresnel::Schlick) {
-  Quality q;
-  q.path = path;
-  q.fresnel = fresnel;
-  return q;
-}
-
-Material glassOf(float ior, float thickness, float roughness = 0) {
-  Material m;
-  m.transmission = 1;
-  m.ior = ior;
-  m.thickness = thickness;
-  m.roughness = roughness;
-  return m;
-}
-
-Material shining(vec3 radiance) {
-  Material m;
-  m.unlit = true;
-  m.albedo = vec3(0);
-  m.emission = radiance;
-  return m;
-}
 
 /// A wall across the view whose red rises from left to right and whose green is constant: red over green says where it is seen, whatever the glass keeps.
 Id<Instance> addRuler(Scene& scene, float z) {

@@ -1,27 +1,12 @@
 // H25: blended surfaces are lit as opaque ones are, what is behind them counts by the closed form, and they come in the right order at every pixel.
 #include <catch2/catch.hpp>
 
-#include "render/workshop.h"
+#include "render/transparent.h"
 
 namespace burnish::test {
 namespace {
 
 constexpr glm::ivec2 kSize{96, 72};
-
-Quality onPath(Path path) {
-  Quality q;
-  q.path = path;
-  return q;
-}
-
-Material shining(vec3 radiance) {
-  Material m;
-  m.unlit = true;
-  m.albedo = vec3(0);
-  m.emission = radiance;
-  m.useVertexColor = false;
-  return m;
-}
 
 /// A pane that has no light of its own, adds `color · opacity` and lets the rest through: the analytic colour of the order tests.
 Material veil(vec3 color, float opacity) {
