@@ -98,7 +98,7 @@ void findVisible(const Scene& scene, const Derived& derived, const ViewFrame& fr
 struct Batch {
   std::uint32_t first = 0, count = 1;
 };
-/// Batches are made from so many instances on: fewer are drawn one by one, in order of their distance. (Measured: docs/benchmarks.md.)
+/// Batches are made from so many instances on: fewer are drawn one by one, in order of their distance. (docs/benchmarks.md has what it saves; where the line is drawn is a choice.)
 inline constexpr std::uint32_t kInstancedFrom = 8;
 /// Brings the instances of each batch together, at the place of the nearest one. Every instance is in exactly one batch.
 std::vector<Batch> batch(std::vector<VisibleInstance>& instances);
