@@ -94,6 +94,12 @@ struct Light {
   glm::vec3 color{1};
   float intensity = 1, range = 0, innerCone = 0, outerCone = 0.7853982f;
 };
+/// scene.extras.burnish.fog, as burnish::Fog.
+struct Fog {
+  float density = 0, falloff = 0, height = 0;
+  glm::vec3 albedo{1};
+  float anisotropy = 0, start = 0;
+};
 struct Node {
   std::string name;
   int parent = -1;
@@ -136,6 +142,7 @@ struct Asset {
   std::vector<Light> lights;
   std::vector<Skin> skins;
   std::vector<Animation> animations;
+  std::optional<Fog> fog;
   std::string environment;      ///< scene.extras.burnish.environment: path relative to the file's folder; empty: none
 };
 

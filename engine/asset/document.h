@@ -90,6 +90,7 @@ struct SkinSource {
 };
 struct SceneSource {
   std::string name, environment;
+  std::optional<Fog> fog;
   std::vector<int> nodes;
 };
 struct SamplerSource {

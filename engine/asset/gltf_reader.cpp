@@ -85,7 +85,10 @@ Result<Asset> finish(Check& check, Document& doc, Source& source, std::uint64_t 
   asset.materials = std::move(doc.materials);
   asset.cameras = std::move(doc.cameras);
   asset.lights = std::move(doc.lights);
-  if (doc.scene >= 0) asset.environment = doc.scenes[std::size_t(doc.scene)].environment;
+  if (doc.scene >= 0) {
+    asset.environment = doc.scenes[std::size_t(doc.scene)].environment;
+    asset.fog = doc.scenes[std::size_t(doc.scene)].fog;
+  }
   return asset;
 }
 

@@ -120,6 +120,19 @@ void countTables(const At& root, Check& check) {
     if (const Json* list = check.array(root, key)) check.setTableSize(table, list->size());
 }
 
+/// `extras.burnish.fog`. Its numbers must be numbers in range: a scene without the fog that it asks for is another scene.
+void parseFog(const At& at, Check& check, SceneSource& scene) {
+  check.known(at, {"density", "falloff", "height", "albedo", "anisotropy", "start"});
+  Fog& fog = scene.fog.emplace();
+  fog.density = float(check.number(at, "density", 0, kNotNegative, Need::Required));
+  fog.falloff = float(check.number(at, "falloff", 0, kNotNegative));
+  fog.height = float(check.number(at, "height", 0));
+  double albedo[3] = {1, 1, 1};
+  if (check.numbers(at, "albedo", albedo, kUnit)) fog.albedo = {albedo[0], albedo[1], albedo[2]};
+  fog.anisotropy = float(check.number(at, "anisotropy", 0, {-0.95, 0.95}));
+  fog.start = float(check.number(at, "start", 0, kNotNegative));
+}
+
 void parseScenes(const At& root, Check& check, Document& doc) {
   check.eachObject(root, "scenes", [&](const At& at, std::size_t) {
     SceneSource& scene = doc.scenes.emplace_back();
@@ -128,6 +141,7 @@ void parseScenes(const At& root, Check& check, Document& doc) {
     scene.nodes = check.references(at, "nodes", Table::Nodes);
     check.withOwnExtras(at, [&](const At& ours) {
       if (const std::string* file = check.string(ours, "environment")) scene.environment = *file;
+      check.withObject(ours, "fog", [&](const At& fog) { parseFog(fog, check, scene); });
     });
   });
   doc.scene = check.reference(root, "scene", Table::Scenes);

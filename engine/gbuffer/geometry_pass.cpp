@@ -52,17 +52,23 @@ struct Opaque {
 class Programs {
  public:
   Programs(FrameContext& c, plan::GeometryPass pass, bool occlusionTarget)
-      : c_(c), pass_(pass), occlusionTarget_(occlusionTarget), lighting_{int(c.lights.directional.size()), c.plan.on("environment_lighting"), c.plan.on("baked_occlusion"), c.view.orthographic} {}
+      : c_(c), pass_(pass), occlusionTarget_(occlusionTarget), lighting_{int(c.lights.directional.size()), c.plan.on("environment_lighting"), c.plan.on("baked_occlusion"), c.view.orthographic, -1, c.plan.on("fog")} {}
   Result<const gl::Program*> of(const plan::GeometryVariant& v) {
     const gl::Program*& program = found_[v];
     if (program) return program;
-    const std::string name = pass_ == plan::GeometryPass::Forward ? plan::forwardProgram(v, c_.quality, lighting_).name : plan::geometryProgram(pass_, v, occlusionTarget_).name;
+    const std::string name = nameOf(v);
     program = c_.programs.find(name);
     if (!program) return fail("frame plan", fmt::format("program '{}' is not in it", name), "report this as a fault of the engine");
     return program;
   }
 
  private:
+  [[nodiscard]] std::string nameOf(const plan::GeometryVariant& v) const {
+    if (pass_ == plan::GeometryPass::Forward) return plan::forwardProgram(v, c_.quality, lighting_).name;
+    if (pass_ == plan::GeometryPass::Emissive) return plan::emissiveProgram(v, c_.quality, lighting_).name;
+    return plan::geometryProgram(pass_, v, occlusionTarget_).name;
+  }
+
   FrameContext& c_;
   plan::GeometryPass pass_;
   bool occlusionTarget_;

@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "plan/variants.h"
+#include "scene/fog.h"
 
 namespace burnish::gpu_scene {
 
@@ -137,6 +138,17 @@ void fillRays(FrameData& d, const scene::ViewFrame& v) {
   d.depthParams = vec4(float(v.depthParams.x), float(v.depthParams.y), 0, 0);
 }
 
+// What fog of any depth shows, by the first two bands of the surroundings' harmonics: band l is scattered as itself times g^l (shading/fog.h). The coefficients are of irradiance/pi,
+// in which band 1 counts 2/3.
+void fillFog(FrameData& d, FrameContext& c) {
+  const Fog fog = scene::fogOf(c.scene, &c.report);
+  d.fog = vec4(fog.density, fog.falloff, float(c.view.eye.y - double(fog.height)), fog.start);
+  const Ambient rung = c.quality.ambient;
+  const float first = rung == Ambient::ShL1 || rung == Ambient::ShL2 ? 1.5f * fog.anisotropy : 0;
+  for (int i = 0; i < 4; ++i) d.fogLight[i] = d.irradiance[i] * vec4(fog.albedo, 0) * (i == 0 ? 1 : first);
+  d.fogLight[4] = vec4(fog.albedo, fog.anisotropy);
+}
+
 }  // namespace
 
 Result<void> uploadFrameData(FrameContext& c, float displayExposure) {
@@ -155,6 +167,7 @@ Result<void> uploadFrameData(FrameContext& c, float displayExposure) {
     d.environment.x = c.environment->lastLevel;
     for (std::size_t i = 0; i < 9; ++i) d.irradiance[i] = vec4(c.environment->irradiance[i] * scale, 0);
   }
+  if (c.plan.on("fog")) fillFog(d, c);
   d.environment.y = float(c.lights.local.size());
   d.environment.z = std::isfinite(c.quality.occlusionRadius) ? std::clamp(c.quality.occlusionRadius, 1e-3f, 1e3f) : 1.0f;
   d.environment.w = float(c.view.viewport.w) / 6;

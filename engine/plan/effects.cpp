@@ -24,7 +24,16 @@ Verdict emissive(const Situation& s) { return provided(sceneCalls(s, Call::Emiss
 Verdict alphaBlend(const Situation& s) { return provided(sceneCalls(s, Call::AlphaBlend, "a blended material would call for it"), s.final(), kNotShown); }
 Verdict glass(const Situation& s) { return provided(sceneCalls(s, Call::Glass, "a material with transmission would call for it"), s.final(), kNotShown); }
 
-std::string_view notLit(const Situation& s) { return s.hasDepth() ? kNotShown : "nothing to light"; }
+Verdict fog(const Situation& s) {
+  const bool scene = s.scene.fog.density > 0;
+  Verdict v = sceneCalls(s, Call::Fog, "fog in the scene would call for it");
+  if (!v.on && scene) v.reason = "nothing in view is far enough for the scene's fog to take 1/1024 of its light";
+  return provided(v, s.final(), kNotShown);
+}
+
+/// Suns and surroundings shine on surfaces and on fog.
+bool anythingToLight(const Situation& s) { return s.hasDepth() || s.on("fog"); }
+std::string_view notLit(const Situation& s) { return anythingToLight(s) ? kNotShown : "nothing to light"; }
 
 Verdict countedLights(const Situation& s, Call call, int count, std::string_view otherwise) {
   Verdict v = sceneCalls(s, call, otherwise);
@@ -32,7 +41,7 @@ Verdict countedLights(const Situation& s, Call call, int count, std::string_view
   return v;
 }
 Verdict directionalLights(const Situation& s) {
-  return provided(countedLights(s, Call::Directional, s.facts.directionalLights, "a directional light would call for it"), s.final() && s.hasDepth(), notLit(s));
+  return provided(countedLights(s, Call::Directional, s.facts.directionalLights, "a directional light would call for it"), s.final() && anythingToLight(s), notLit(s));
 }
 Verdict localLights(const Situation& s) {
   return provided(countedLights(s, Call::Local, s.facts.localLights, "a point or spot light would call for it"), (s.final() || s.viewsLights()) && s.hasDepth(), notLit(s));
@@ -40,7 +49,7 @@ Verdict localLights(const Situation& s) {
 Verdict environmentLighting(const Situation& s) {
   const bool quality = s.quality.environmentSpecular != EnvironmentSpecular::None || s.quality.ambient != Ambient::None;
   const Verdict called = sceneCalls(s, Call::Environment, "an environment map or colour would call for it");
-  return provided(provided(called, quality, "the quality turns it off"), s.final() && s.hasDepth(), notLit(s));
+  return provided(provided(called, quality, "the quality turns it off"), s.final() && anythingToLight(s), notLit(s));
 }
 Verdict background(const Situation& s) { return provided(sceneCalls(s, Call::Background, "an environment shown as background would call for it"), s.final(), kNotShown); }
 
@@ -107,6 +116,7 @@ constexpr EffectRow kRows[] = {
     {{"emissive", CalledBy::Scene, "surfaces that emit"}, emissive},
     {{"alpha_blend", CalledBy::Scene, "surfaces drawn over what is behind them"}, alphaBlend},
     {{"glass", CalledBy::Scene, "surfaces that refract what is behind them"}, glass},
+    {{"fog", CalledBy::Scene, "air that takes light and scatters it"}, fog, false},
     {{"directional_lights", CalledBy::Scene, "suns"}, directionalLights, false},
     {{"local_lights", CalledBy::Scene, "point and spot lights"}, localLights, false},
     {{"environment_lighting", CalledBy::Scene, "light of the surroundings"}, environmentLighting, false},
@@ -157,7 +167,7 @@ void judgeEffects(Situation& s) {
 
 // Only where lighting and background fill the view between them, so that nobody else writes a pixel.
 bool Situation::developsInPlace() const {
-  if (!on("tone_mapping") || !on("geometry") || !lit() || !on("background")) return false;
+  if (!on("tone_mapping") || !on("geometry") || !lit() || !fillsBackground()) return false;
   return std::none_of(std::begin(kRows), std::end(kRows), [&](const EffectRow& row) { return row.needsLightBuffer && on(row.info.name); });
 }
 

@@ -36,7 +36,7 @@ void addGBuffer(Builder& b) {
 void addForward(Builder& b) {
   const Situation& s = b.s;
   if (!s.forward()) return;
-  PassPlan& pass = b.pass("forward", {"forward_reference"}, {"meshes", "materials", "lights"}, {"light", "depth"});
+  PassPlan& pass = b.pass("forward", {"forward_reference", "fog"}, {"meshes", "materials", "lights"}, {"light", "depth"});
   const bool environment = s.on("environment_lighting");
   if (needsCube(s.quality, environment)) pass.reads.push_back("environment cube");
   if (needsDfg(s.quality, environment)) pass.reads.push_back("dfg");
@@ -46,8 +46,9 @@ void addForward(Builder& b) {
 
 void addEmissive(Builder& b) {
   if (!b.s.on("emissive")) return;
-  PassPlan& pass = b.pass("emissive", {"emissive"}, {"meshes", "materials", "depth"}, {"light"});
-  for (const GeometryVariant& v : b.s.facts.emissiveVariants) b.use(pass, geometryProgram(GeometryPass::Emissive, v, false));
+  PassPlan& pass = b.pass("emissive", {"emissive", "fog"}, {"meshes", "materials", "depth"}, {"light"});
+  for (bool orthographic : b.s.projections())
+    for (const GeometryVariant& v : b.s.facts.emissiveVariants) b.use(pass, emissiveProgram(v, b.s.quality, b.s.lighting(orthographic)));
 }
 
 }  // namespace burnish::plan

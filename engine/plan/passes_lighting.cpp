@@ -1,4 +1,6 @@
 // Light lists, lighting, the background.
+#include <algorithm>
+
 #include "plan/builder.h"
 
 namespace burnish::plan {
@@ -6,7 +8,7 @@ namespace burnish::plan {
 void addTiles(Builder& b) {
   const Situation& s = b.s;
   // Linear output keeps radiance in floats; a picture for a display is pre-exposed, so that half floats suffice.
-  if (s.final() && !s.developsInPlace()) b.target("light", s.options.output == Output::Linear ? "RGBA32F" : "RGBA16F", {"tone_mapping", "linear_output", "debug_view", "directional_lights", "local_lights", "environment_lighting", "background", "emissive", "alpha_blend", "glass"});
+  if (s.final() && !s.developsInPlace()) b.target("light", s.options.output == Output::Linear ? "RGBA32F" : "RGBA16F", {"tone_mapping", "linear_output", "debug_view", "directional_lights", "local_lights", "environment_lighting", "background", "emissive", "alpha_blend", "glass", "fog"});
   if (!s.hasTiles()) return;
   PassPlan& pass = b.pass("tiles", {"directional_lights", "local_lights", "environment_lighting", "screen_occlusion", "debug_view"}, {"depth", "lights"}, {"light lists"});
   if (!s.reducesDepth()) return;
@@ -37,7 +39,7 @@ void addLighting(Builder& b) {
   if (!s.hasDepth() || s.forward() || !s.lit() || !s.final()) return;
   const bool local = s.on("local_lights"), environment = s.on("environment_lighting");
   const char* into = s.developsInPlace() ? "target" : "light";
-  PassPlan& pass = b.pass("lighting", {"directional_lights", "local_lights", "environment_lighting"}, {"gbuffer_a", "gbuffer_b", "depth", "lights", "light lists"}, {into});
+  PassPlan& pass = b.pass("lighting", {"directional_lights", "local_lights", "environment_lighting", "fog"}, {"gbuffer_a", "gbuffer_b", "depth", "lights", "light lists"}, {into});
   if (s.developsInPlace()) pass.effects.emplace_back("tone_mapping");
   if (s.on("screen_occlusion"))
     pass.reads.push_back("occlusion");
@@ -58,14 +60,23 @@ void addLighting(Builder& b) {
 
 void addBackground(Builder& b) {
   const Situation& s = b.s;
-  if (!s.on("background")) return;
+  if (!s.fillsBackground()) return;
   const bool inPlace = s.developsInPlace();
-  PassPlan& pass = b.pass("background", {"background"}, {"environment"}, {inPlace ? "target" : "light"});
+  PassPlan& pass = b.pass("background", {"background", "fog"}, {"environment"}, {inPlace ? "target" : "light"});
   if (inPlace) pass.effects.emplace_back("tone_mapping");
   if (s.hasDepth()) pass.reads.push_back("depth");
   if (s.hasTiles()) pass.reads.push_back("light lists");
-  for (bool o : s.projections())
-    b.use(pass, {o ? "background+ortho" : "background", s.hasTiles() ? "lighting/background_tile.vert" : "post/screen.vert", "lighting/sky.frag", {define("IN_PLACE", inPlace), define("ORTHOGRAPHIC", o), define("SKY_MAP", !s.scene.environment.map.empty()), define("TONEMAP", inPlace ? int(s.quality.toneMap) : 0)}});
+  const int map = !s.on("background") ? 2 : s.scene.environment.map.empty() ? 0 : 1;
+  for (bool o : s.projections()) {
+    const LightingVariant lighting = s.lighting(o);
+    ProgramPlan p{o ? "background+ortho" : "background", s.hasTiles() ? "lighting/background_tile.vert" : "post/screen.vert", "lighting/sky.frag", {define("FOG", lighting.fog), define("IN_PLACE", inPlace), define("ORTHOGRAPHIC", o), define("SKY_MAP", map), define("TONEMAP", inPlace ? int(s.quality.toneMap) : 0)}};
+    if (lighting.fog) {
+      p.defines.push_back(define("DIRECTIONAL", lighting.directional));
+      p.defines.push_back(define("FOG_AMBIENT", fogAmbient(s.quality, lighting)));
+      std::sort(p.defines.begin(), p.defines.end());
+    }
+    b.use(pass, p);
+  }
 }
 
 }  // namespace burnish::plan

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "interface/limits.h"
+#include "scene/fog.h"
 
 namespace burnish::plan {
 namespace {
@@ -92,6 +93,7 @@ void look(const Scene& scene, const scene::Derived& derived, const View& view, g
   out.batches = scene::batch(out.instances);
   out.transparent = scene::orderTransparent(scene, derived, out.frame, out.instances);
   out.lights = scene::gatherLights(scene, derived, out.frame, quality, report);
+  out.fogDepth = scene::deepestFog(scene, derived, out.frame, out.instances, out.lights);
 }
 
 void lookEverywhere(const Scene& scene, const scene::Derived& derived, const View& view, glm::ivec2 targetSize, const Quality& quality, Report& report, Seen& out) {
@@ -100,6 +102,7 @@ void lookEverywhere(const Scene& scene, const scene::Derived& derived, const Vie
   out.batches = scene::batch(out.instances);
   out.transparent = scene::orderTransparent(scene, derived, out.frame, out.instances);
   out.lights = scene::gatherLights(scene, derived, out.frame, quality, report, scene::Reach::Everywhere);
+  out.fogDepth = scene::deepestFog(scene, derived, out.frame, out.instances, out.lights);
 }
 
 void Facts::call(Call call, std::string_view kind, const std::string& name, std::string_view because) {
@@ -114,6 +117,7 @@ Facts factsOf(const Scene& scene, std::span<const Seen> views, const Quality& qu
     for (const scene::Batch& b : view.batches) addBatch(scene, view.instances[b.first], b.count > 1, quality, allowed, facts);
     addGroups(scene, view, allowed, facts);
     addLights(scene, view.lights, facts);
+    if (view.fogDepth > scene::kLeastFog) facts.why[std::size_t(Call::Fog)] = "the scene's fog";
   }
   addEnvironment(scene.environment, facts);
   return facts;
@@ -132,7 +136,7 @@ std::vector<bool> Situation::projections() const {
 }
 
 LightingVariant Situation::lighting(bool orthographic) const {
-  return {on("directional_lights") ? std::min(facts.directionalLights, MAX_DIRECTIONAL) : 0, on("environment_lighting"), on("baked_occlusion") || on("screen_occlusion"), orthographic, developsInPlace() ? int(quality.toneMap) : -1};
+  return {on("directional_lights") ? std::min(facts.directionalLights, MAX_DIRECTIONAL) : 0, on("environment_lighting"), on("baked_occlusion") || on("screen_occlusion"), orthographic, developsInPlace() ? int(quality.toneMap) : -1, on("fog")};
 }
 
 LightingVariant Situation::drawnLighting(bool orthographic) const {

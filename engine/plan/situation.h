@@ -17,6 +17,7 @@ struct Seen {
   std::vector<scene::Batch> batches;              ///< of `instances`
   scene::LightSet lights;
   std::vector<scene::TransparentGroup> transparent;  ///< farthest first; indices into instances
+  double fogDepth = 0;                               ///< no more than so much fog lies before anything in view (optical depth)
 };
 /// What a view sees. `lights` is filled too; what is mended goes into the report.
 void look(const Scene& scene, const scene::Derived& derived, const View& view, glm::ivec2 targetSize, const Quality& quality, Report& report, Seen& out);
@@ -24,7 +25,7 @@ void look(const Scene& scene, const scene::Derived& derived, const View& view, g
 void lookEverywhere(const Scene& scene, const scene::Derived& derived, const View& view, glm::ivec2 targetSize, const Quality& quality, Report& report, Seen& out);
 
 /// What a scene holds that effects are called by.
-enum class Call : std::uint8_t { Geometry, Deformation, TwoSided, AlphaTest, BakedOcclusion, Emissive, Directional, Local, Environment, Background, AlphaBlend, Glass, Count };
+enum class Call : std::uint8_t { Geometry, Deformation, TwoSided, AlphaTest, BakedOcclusion, Emissive, Directional, Local, Environment, Background, AlphaBlend, Glass, Fog, Count };
 struct Facts {
   std::array<std::string, std::size_t(Call::Count)> why;  ///< the first thing that calls; empty: nothing does
   int directionalLights = 0, localLights = 0;
@@ -61,6 +62,10 @@ struct Situation {
   [[nodiscard]] bool lit() const { return on("directional_lights") || on("local_lights") || on("environment_lighting"); }
   /// Lighting writes what the display takes straight into the target: no effect needs the light buffer. Asked once all effects are judged.
   [[nodiscard]] bool developsInPlace() const;
+  /// Fog is lit by suns or surroundings, so that it shows before an empty background too.
+  [[nodiscard]] bool fogShines() const { return on("fog") && (on("directional_lights") || on("environment_lighting")); }
+  /// What nothing was drawn over is filled: with the surroundings, or with fog.
+  [[nodiscard]] bool fillsBackground() const { return on("background") || fogShines(); }
   [[nodiscard]] bool forward() const { return on("forward_reference"); }
   /// The view is cut into tiles that say which lights reach them and which show the background.
   [[nodiscard]] bool hasTiles() const { return hasDepth() && !forward() && ((lit() && final()) || viewsLights() || on("screen_occlusion")); }

@@ -76,6 +76,20 @@ OcclusionSamples occlusionSamples(Occlusion rung) {
   return {};
 }
 
+bool fogAmbient(const Quality& q, const LightingVariant& lighting) { return lighting.fog && lighting.environment && q.ambient != Ambient::None; }
+
+ProgramPlan emissiveProgram(GeometryVariant variant, const Quality& quality, const LightingVariant& lighting) {
+  ProgramPlan p = geometryProgram(GeometryPass::Emissive, variant, false);
+  p.defines.push_back(define("FOG", lighting.fog));
+  if (!lighting.fog) return p;
+  p.defines.push_back(define("DIRECTIONAL", lighting.directional));
+  p.defines.push_back(define("FOG_AMBIENT", fogAmbient(quality, lighting)));
+  p.defines.push_back(define("ORTHOGRAPHIC", lighting.orthographic));
+  std::sort(p.defines.begin(), p.defines.end());
+  if (lighting.orthographic) p.name += "+ortho";
+  return p;
+}
+
 bool needsDfg(const Quality& q, bool environment) {
   return shading::needsAlbedoTable(rungsOf(q)) || (environment && (q.environmentSpecular == EnvironmentSpecular::Dfg || q.environmentSpecular == EnvironmentSpecular::Sampled));
 }
@@ -93,6 +107,8 @@ std::vector<std::string> shadeDefines(const Quality& q, const LightingVariant& l
           define("DFG_WIDTH", table.width),
           define("DIRECTIONAL", lighting.directional),
           define("ENVIRONMENT", lighting.environment),
+          define("FOG", lighting.fog),
+          define("FOG_AMBIENT", fogAmbient(q, lighting)),
           define("ORTHOGRAPHIC", lighting.orthographic),
           define("RUNG_AMBIENT", lighting.environment ? int(q.ambient) : 0),
           define("RUNG_COMPENSATION", k.compensation),

@@ -48,7 +48,7 @@ TransparentVariant transparentVariantOf(const Material& material, const Mesh& me
 
 /// The passes that draw geometry.
 enum class GeometryPass : std::uint8_t { GBuffer, Emissive, Pick, Forward };
-/// occlusionTarget: the frame has a third target. Not for Forward, which forwardProgram makes.
+/// occlusionTarget: the frame has a third target. Not for Emissive and Forward, which emissiveProgram and forwardProgram make.
 ProgramPlan geometryProgram(GeometryPass pass, GeometryVariant variant, bool occlusionTarget);
 
 /// How the screen-space rungs of occlusion sample: slices, each a half turn around the direction to the eye, and samples to either side of it. No slices: the rung is another.
@@ -64,7 +64,12 @@ struct LightingVariant {
   bool occlusion = false;     ///< ambient occlusion is there, baked or of the screen
   bool orthographic = false;
   int inPlace = -1;           ///< tone map (ToneMap's number) of what is written straight into the target; -1: radiance is written
+  bool fog = false;           ///< lies before what is lit
 };
+/// Fog is there and lit by the surroundings.
+bool fogAmbient(const Quality& quality, const LightingVariant& lighting);
+/// What emits, through the fog if there is any.
+ProgramPlan emissiveProgram(GeometryVariant variant, const Quality& quality, const LightingVariant& lighting);
 /// The lobe's table (prefilter/dfg.h) is read.
 bool needsDfg(const Quality& quality, bool environment);
 /// The prefiltered cube is read.

@@ -20,6 +20,7 @@ class Importer {
 
   Result<Scene> run() {
     scene_.name = asset_.name;
+    if (const auto& fog = asset_.fog) scene_.fog = {fog->density, fog->falloff, fog->height, fog->albedo, fog->anisotropy, fog->start};
     if (auto r = materials(); !r) return fail(r.error());
     if (auto r = meshes(); !r) return fail(r.error());
     nodes();

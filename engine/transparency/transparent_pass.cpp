@@ -157,7 +157,7 @@ Result<const TransparentPass::Programs*> TransparentPass::programsOf(FrameContex
   const plan::TransparentVariant variant = plan::transparentVariantOf(material, mesh, c.quality.occlusion != Occlusion::None);
   const auto [at, isNew] = programs_.try_emplace(variant);
   if (!isNew) return &at->second;
-  const plan::LightingVariant lighting{int(c.lights.directional.size()), c.plan.on("environment_lighting"), c.plan.on("baked_occlusion"), c.view.orthographic};
+  const plan::LightingVariant lighting{int(c.lights.directional.size()), c.plan.on("environment_lighting"), c.plan.on("baked_occlusion"), c.view.orthographic, -1, c.plan.on("fog")};
   const std::string shade = plan::transparentProgram(variant, c.quality, lighting).name, peel = plan::peelProgram(variant).name;
   at->second = {c.programs.find(shade), c.programs.find(peel)};
   if (!at->second.shade) return fail(unplanned(shade).error());

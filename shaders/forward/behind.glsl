@@ -98,7 +98,7 @@ float footprintOf(Meeting m, vec3 leaves, vec3 direction, float perPixel) {
 }
 
 // inside: the eye sees the far side's back: light enters there. Pre-exposed radiance, absorption taken off.
-vec3 behind(vec3 p, Surface m, float eta, float thickness, bool inside) {
+vec3 behind(vec3 p, vec3 toEye, Surface m, float eta, float thickness, bool inside) {
   vec3 way = vec3(0.0), direction = -m.v;
   float path = 0.0, roundness = roundnessHere(p, thickness), perPixel = length(frame.rayX.xyz);
   if (inside) {
@@ -129,6 +129,11 @@ vec3 behind(vec3 p, Surface m, float eta, float thickness, bool inside) {
 #if ENVIRONMENT && RUNG_ENVIRONMENT_SPECULAR != ENVIRONMENT_SPECULAR_NONE
   if (outside > 0.0) {
     vec3 around = textureLod(environmentCube, direction, environmentLevel(sqrt(scatteredAlpha(m.alpha, eta)), lastLevel())).rgb * frame.background.w;
+#if FOG
+    // Fog to the end of the world, then as if it were seen here.
+    float beyondFog = fogDepth(frame.fog.z + p.y, frame.fog.z + p.y + direction.y * BURNISH_FOG_FAR, BURNISH_FOG_FAR, 0.0, frame.fog.x, frame.fog.y);
+    around = fogged(around * fogThrough(beyondFog) + fogSource(direction) * fogTaken(beyondFog), p, toEye);
+#endif
     seen += (around - seen) * outside;
   }
 #endif

@@ -14,5 +14,8 @@ void main() {
 #if ENVIRONMENT
   sum += surroundings(m, f.occlusion);
 #endif
+#if FOG
+  sum = fogged(sum, p, toEye);
+#endif
   outRadiance = vec4(limitRadiance(sum, frame.exposure.w), 1.0);
 }

@@ -1,5 +1,5 @@
 // What the forward programs share: the surface at this fragment and its light from every light of the scene.
-// Definitions: DIRECTIONAL (count), ORTHOGRAPHIC, those of gbuffer/fetch.glsl and of lighting/shade.glsl.
+// Definitions: DIRECTIONAL (count), FOG, ORTHOGRAPHIC, those of gbuffer/fetch.glsl and of lighting/shade.glsl.
 #define ANISOTROPIC 1
 #define ENVIRONMENT_UNIT UNIT_FORWARD_ENVIRONMENT
 #include "shading/bridge.h"
@@ -17,6 +17,9 @@ vec3 ambientAt(vec3 n) {
 float lastLevel() { return frame.environment.x; }
 #endif
 #include "lighting/shade.glsl"
+#if FOG
+#include "interface/fog.glsl"
+#endif
 
 Surface surfaceHere(Fetched f, vec3 toEye) {
   float n2 = dot(f.normal, f.normal);

@@ -98,8 +98,13 @@ void main() {
   sum += emitted * frame.exposure.x;
 #endif
   through *= share;
+#if FOG
+  // What is behind has all of the fog on its way to the eye already: what lets it through adds no more.
+  float depth = fogDepthTo(p);
+  sum = sum * fogThrough(depth) + fogSource(-toEye) * (vec3(1.0) - through) * fogTaken(depth);
+#endif
 #if THROUGH == THROUGH_REFRACT
-  sum += through * behind(p, m, eta, thickness, inside);
+  sum += through * behind(p, toEye, m, eta, thickness, inside);
   through = vec3(0.0);
 #endif
   outRadiance = vec4(limitRadiance(sum, frame.exposure.w) * coverage, 1.0);

@@ -63,6 +63,8 @@ struct FrameData {
   vec4 background;       // rgb pre-exposed background colour; w scale of the environment cube
   ivec4 viewport;        // x, y, width, height in pixels
   vec4 irradiance[9];    // pre-exposed irradiance/pi of the surroundings, SH L2 with all constants folded in (shading/environment.h)
+  vec4 fog;              // x extinction (1/m) at the reference height, y its falloff (1/m), z height of the eye above that (m), w metres that are clear
+  vec4 fogLight[5];      // pre-exposed radiance that fog shows: constant, along y, z, x; rgb albedo, w mean cosine of its scattering
   vec4 directional[2 * MAX_DIRECTIONAL];  // xyz unit direction to the light; rgb pre-exposed lux
 };
 

@@ -1,5 +1,5 @@
 // Shades the tiles: directional lights, the tile's point and spot lights, and the surroundings. Writes pre-exposed radiance.
-// Definitions: TILE_LIGHTS, DIRECTIONAL (count), ORTHOGRAPHIC, IN_PLACE (1: writes what the display takes, not radiance; TONEMAP) and those of lighting/shade.glsl.
+// Definitions: FOG (1: it lies before the surface: interface/fog.glsl), TILE_LIGHTS, DIRECTIONAL (count), ORTHOGRAPHIC, IN_PLACE (1: writes what the display takes, not radiance; TONEMAP) and those of lighting/shade.glsl.
 #define ANISOTROPIC 0
 #define ENVIRONMENT_UNIT UNIT_ENVIRONMENT
 #include "shading/bridge.h"
@@ -10,6 +10,10 @@
 #if IN_PLACE
 #include "shading/tonemap.h"
 #include "interface/develop.glsl"
+#endif
+
+#if FOG
+#include "interface/fog.glsl"
 #endif
 
 layout(location = 0) flat in vec4 ray[3];
@@ -63,6 +67,9 @@ void main() {
 #endif
 #if ENVIRONMENT
   sum += surroundings(m, occlusion);
+#endif
+#if FOG
+  sum = fogged(sum, p, toEye);
 #endif
   // Nothing was drawn where z is 0: black there, for a background to replace.
   vec3 radiance = z > 0.0 ? limitRadiance(sum, ray[2].w) : vec3(0.0);

@@ -10,3 +10,4 @@
 #include "shading/environment.h"
 #include "shading/occlusion.h"
 #include "shading/transmission.h"
+#include "shading/fog.h"

@@ -31,6 +31,19 @@ const Domain kVisibility = numbers("visibility", {kCosine, kCosine, kAlpha, kCos
 const Domain kMasking = numbers("masking", {kCosine, kCosine, kAlphaUnit, kCosine, kCosine});
 const Domain kLogarithms = numbers("logarithms", {kUnit, kPower});
 
+/// a: heights (m) over the reference, way, clear part; b: extinction, falloff, cosine, g. Half of the ways are level or nearly so.
+Case throughFog(Random& random) {
+  const float way = std::exp2(uniform(random, -4, 20)), slope = random() & 1 ? uniform(random, -1, 1) : std::exp2(-uniform(random, 4, 30));
+  const float falloff = random() % 4 ? std::exp2(uniform(random, -16, 0)) : 0.0f, from = std::min(uniform(random, -5, 5) / std::max(falloff, 0.01f), 1e4f);
+  const float to = std::max(from + slope * way, -5 / std::max(falloff, 1e-6f));
+  return {glm::vec4(from, to, way, random() & 1 ? 0.0f : uniform(random, 0, 0.5f) * way), glm::vec4(std::exp2(uniform(random, -20, 0)), falloff, uniform(random, -1, 1), uniform(random, -0.9f, 0.9f))};
+}
+Case hardFog(Random& random) {
+  return {glm::vec4(kAny.adverse(random), kAny.adverse(random), std::abs(kAny.adverse(random)), std::abs(kAny.adverse(random))),
+          glm::vec4(std::abs(kAny.adverse(random)), std::abs(kAny.adverse(random)), std::min(kUnit.adverse(random) * 2 - 1, 1.0f), kUnit.adverse(random) * 1.9f - 0.95f)};
+}
+const Domain kFog{"fog", throughFog, hardFog};
+
 Case gaussian(Random& random) {
   const float ax = kAlpha.ordinary(random), ay = kAlpha.ordinary(random), x = uniform(random, -2, 2) * ax * 0.5f, y = uniform(random, -2, 2) * ay * 0.5f;
   const float s = 1 / std::sqrt(1 + x * x + y * y);
@@ -94,6 +107,13 @@ void addLobes(std::vector<Row>& rows) {
     rows.push_back(row);
   }
 
+  // Heights are differences of two numbers: their rounding counts falloff times as much.
+  rows.push_back({"fogDepth, fogThrough, fogTaken, phaseHenyeyGreenstein", {}, &kFog,
+                  TEXT(vec4(fogDepth(a.x, a.y, a.z, a.w, b.x, b.y), fogThrough(fogDepth(a.x, a.y, a.z, a.w, b.x, b.y)), fogTaken(fogDepth(a.x, a.y, a.z, a.w, b.x, b.y)), phaseHenyeyGreenstein(b.z, b.w))), {}, 0,
+                  {" of what it is, by the rounding of heights", [](const Row&, const Case& in, const glm::dvec4& exact, int k) {
+                     const double heights = 1 + double(in[1].y) * (std::abs(double(in[0].x)) + std::abs(double(in[0].y)));
+                     return (k == 0 ? exact.x : k == 3 ? exact.w : 1.0) * heights;
+                   }}, 3e-6, ranges({0, 1.0001e18}, {0, 1}, {0, 1 + 1e-6}, {0, 63})});
   rows.push_back({"visibility terms", {}, &kVisibility, TEXT(vec4(V_schlickSmith(a.x, a.y, a.z), V_smithGgx(a.x, a.y, a.z), V_smithBeckmann(a.x, a.y, a.z), V_vCavity(a.x, a.y, a.w, b.x))), {}, 0,
                   relative(), 1e-6, within(0, 0.5e12)});  // over BURNISH_GUARD_VISIBILITY
   // G = 4 n·l n·v V is a share of the facets.

@@ -204,6 +204,32 @@ TEST_CASE("nodes: parents first, matrices and TRS, the default scene only", "[gl
   CHECK(readJson({{"nodes", {Json::object(), {{"children", {0}}}}}}).asset->nodes.size() == 2);  // no scenes: all roots
 }
 
+TEST_CASE("fog of a scene: its numbers, and one clear error for what is none", "[gltf]") {
+  const auto withFog = [](Json fog) {
+    return readJson({{"scenes", {{{"extras", {{"burnish", {{"fog", std::move(fog)}}}}}}}}});
+  };
+  const Reading r = withFog({{"density", 0.002}, {"falloff", 0.05}, {"height", -3}, {"albedo", {0.5, 0.25, 1}}, {"anisotropy", 0.5}, {"start", 4}, {"colour", 1}});
+  INFO(r.message());
+  REQUIRE(r.asset);
+  REQUIRE(r.asset->fog);
+  const auto& fog = *r.asset->fog;
+  CHECK((fog.density == 0.002f && fog.falloff == 0.05f && fog.height == -3 && fog.anisotropy == 0.5f && fog.start == 4));
+  CHECK(fog.albedo == glm::vec3(0.5f, 0.25f, 1));
+  CHECK(r.warned("'colour'"));
+  CHECK_FALSE(readJson({{"scenes", {Json::object()}}}).asset->fog);
+  for (const auto& [fog, place] : std::vector<std::pair<Json, std::string>>{{{{"density", "thick"}}, "density"},
+                                                                            {{{"density", -1}}, "density"},
+                                                                            {{{"falloff", 1}}, "density"},
+                                                                            {{{"density", 1}, {"albedo", {1, 2, 1}}}, "albedo"},
+                                                                            {{{"density", 1}, {"anisotropy", 1}}, "anisotropy"}}) {
+    const Reading bad = withFog(fog);
+    CAPTURE(fog.dump());
+    CHECK_FALSE(bad.asset);
+    CHECK(bad.message().find("/scenes/0/extras/burnish/fog") != std::string::npos);
+    CHECK(bad.message().find(place) != std::string::npos);
+  }
+}
+
 TEST_CASE("cameras and lights", "[gltf]") {
   Json file = {{"extensionsUsed", {"KHR_lights_punctual"}},
                {"cameras",

@@ -276,6 +276,16 @@ struct Environment {
   std::uint64_t revision = 0;  ///< advance it when the map or colour changes
 };
 
+/// Fog that thins with height, lit by suns and surroundings (docs/sky_and_fog.md). Its extinction, h metres above `height`, is density · exp(-falloff · h).
+struct Fog {
+  float density = 0;    ///< 1/m: the share of light that a metre takes, at `height`; 0: there is no fog
+  float falloff = 0;    ///< 1/m: every 1/falloff metres upward it is thinner by e; 0: it is even everywhere, and hides the background
+  float height = 0;     ///< metres, world Y
+  glm::vec3 albedo{1};  ///< 0..1: what it scatters of the light that it takes; the rest is absorbed
+  float anisotropy = 0; ///< -0.95..0.95, mean cosine of the scattering angle (Henyey and Greenstein's g): above 0 it is brightest around the sun, as haze is
+  float start = 0;      ///< metres from the eye that are clear
+};
+
 /// Tells scenes apart, so that a renderer never takes one scene's tables for another's. Copies get an identity of their own; moving keeps it.
 class BURNISH_API Identity {
  public:
@@ -306,6 +316,7 @@ struct Scene {
   Table<Skin> skins;
   Table<Animation> animations;
   Environment environment;
+  Fog fog;
 
   /// Product of the locals from the root down. Cycles are cut (the API cannot make one unless told to).
   [[nodiscard]] BURNISH_API glm::dmat4 world(Id<Node> node) const;
