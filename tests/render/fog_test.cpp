@@ -3,6 +3,7 @@
 
 #include <iostream>
 
+#include "reference/shading.h"
 #include "render/transparent.h"
 
 using namespace burnish;
