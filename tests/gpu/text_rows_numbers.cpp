@@ -112,8 +112,8 @@ void addLobes(std::vector<Row>& rows) {
                   TEXT(vec4(fogDepth(a.x, a.y, a.z, a.w, b.x, b.y), fogThrough(fogDepth(a.x, a.y, a.z, a.w, b.x, b.y)), fogTaken(fogDepth(a.x, a.y, a.z, a.w, b.x, b.y)), phaseHenyeyGreenstein(b.z, b.w))), {}, 0,
                   {" of what it is, by the rounding of heights", [](const Row&, const Case& in, const glm::dvec4& exact, int k) {
                      const double heights = 1 + double(in[1].y) * (std::abs(double(in[0].x)) + std::abs(double(in[0].y)));
-                     return (k == 0 ? exact.x : k == 3 ? exact.w : 1.0) * heights;
-                   }}, 3e-6, ranges({0, 1.0001e18}, {0, 1}, {0, 1 + 1e-6}, {0, 63})});
+                     return (k == 0 ? std::max(exact.x, 1e-30) : k == 3 ? exact.w : 1.0) * heights;
+                   }}, {8e-6, 2e-6}, ranges({0, 1.0001e18}, {0, 1}, {0, 1 + 1e-6}, {0, 63})});
   rows.push_back({"visibility terms", {}, &kVisibility, TEXT(vec4(V_schlickSmith(a.x, a.y, a.z), V_smithGgx(a.x, a.y, a.z), V_smithBeckmann(a.x, a.y, a.z), V_vCavity(a.x, a.y, a.w, b.x))), {}, 0,
                   relative(), 1e-6, within(0, 0.5e12)});  // over BURNISH_GUARD_VISIBILITY
   // G = 4 n·l n·v V is a share of the facets.
