@@ -142,7 +142,7 @@ bool lists(const std::vector<std::string>& names, std::string_view name) { retur
 std::span<const EffectRow> effectRows() { return kRows; }
 
 Verdict sceneCalls(const Situation& s, Call call, std::string_view otherwise) {
-  if (s.facts.has(call)) return {true, s.facts.why[std::size_t(call)]};
+  if (s.facts.has(call)) return {true, s.facts.why[std::size_t(call)], s.facts.objects[std::size_t(call)]};
   if (s.whole && s.whole->has(call)) return {false, "out of view: " + s.whole->why[std::size_t(call)]};
   return {false, std::string(otherwise)};
 }
@@ -162,6 +162,7 @@ void judgeEffects(Situation& s) {
     effect.on = verdict.on;
     effect.calledBy = row.info.calledBy;
     effect.reason = std::move(verdict.reason);
+    effect.objects = verdict.objects;
   }
 }
 

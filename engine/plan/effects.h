@@ -7,6 +7,7 @@ namespace burnish::plan {
 struct Verdict {
   bool on = false;
   std::string reason;  ///< why it is on, or what would call for it
+  int objects = 0;     ///< EffectPlan::objects
 };
 struct EffectRow {
   EffectInfo info;

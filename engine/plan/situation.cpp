@@ -23,32 +23,32 @@ struct Allowed {
   }
 };
 
-void addTransparent(const Material& material, const Mesh& mesh, const Quality& quality, Facts& facts) {
+void addTransparent(const Material& material, const Mesh& mesh, int count, const Quality& quality, Facts& facts) {
   const TransparentVariant variant = transparentVariantOf(material, mesh, quality.occlusion != Occlusion::None);
   const bool glass = scene::isGlass(material);
-  facts.call(glass ? Call::Glass : Call::AlphaBlend, "material", material.name, glass ? " is glass" : " is blended");
+  facts.call(glass ? Call::Glass : Call::AlphaBlend, "material", material.name, glass ? " is glass" : " is blended", count);
   (glass ? facts.glass : facts.blended).insert(variant);
 }
 
-void addBatch(const Scene& scene, const scene::VisibleInstance& seen, bool instanced, const Quality& quality, Allowed allowed, Facts& facts) {
+void addBatch(const Scene& scene, const scene::VisibleInstance& seen, int count, const Quality& quality, Allowed allowed, Facts& facts) {
   static const Material kDefault;
   const Material* found = scene.materials.get(seen.instance->material);
   const Material& material = found ? *found : kDefault;
   GeometryVariant variant = variantOf(material, *seen.mesh);
-  variant.instanced = instanced;
+  variant.instanced = count > 1;
   if (quality.occlusion == Occlusion::None) variant.occlusionMap = variant.packed = false;
-  facts.call(Call::Geometry, "instance", seen.instance->name, "");
+  facts.call(Call::Geometry, "instance", seen.instance->name, "", count);
   if (seen.pose) {
-    facts.call(Call::Deformation, "instance", seen.instance->name, seen.pose->skinned ? " has a skin" : " has morph weights");
+    facts.call(Call::Deformation, "instance", seen.instance->name, seen.pose->skinned ? " has a skin" : " has morph weights", count);
     facts.deformVariants.insert({seen.pose->skinned, seen.pose->morphed});
   }
-  if (material.twoSided) facts.call(Call::TwoSided, "material", material.name, " is two-sided");
-  if (variant.occlusionMap) facts.call(Call::BakedOcclusion, "material", material.name, " has an occlusion map");
-  if (variant.alphaTest) facts.call(Call::AlphaTest, "material", material.name, " is alpha tested");
-  if (drawnTransparent(material, allowed.blend, allowed.glass)) return addTransparent(material, *seen.mesh, quality, facts);
+  if (material.twoSided) facts.call(Call::TwoSided, "material", material.name, " is two-sided", count);
+  if (variant.occlusionMap) facts.call(Call::BakedOcclusion, "material", material.name, " has an occlusion map", count);
+  if (variant.alphaTest) facts.call(Call::AlphaTest, "material", material.name, " is alpha tested", count);
+  if (drawnTransparent(material, allowed.blend, allowed.glass)) return addTransparent(material, *seen.mesh, count, quality, facts);
   facts.variants.insert(variant);
   if (!emits(material)) return;
-  facts.call(Call::Emissive, "material", material.name, material.unlit ? " is unlit" : " emits");
+  facts.call(Call::Emissive, "material", material.name, material.unlit ? " is unlit" : " emits", count);
   variant.occlusionMap = variant.packed = false;
   facts.emissiveVariants.insert(variant);
 }
@@ -105,7 +105,8 @@ void lookEverywhere(const Scene& scene, const scene::Derived& derived, const Vie
   out.fogDepth = scene::deepestFog(scene, derived, out.frame, out.instances, out.lights);
 }
 
-void Facts::call(Call call, std::string_view kind, const std::string& name, std::string_view because) {
+void Facts::call(Call call, std::string_view kind, const std::string& name, std::string_view because, int count) {
+  objects[std::size_t(call)] += count;
   std::string& reason = why[std::size_t(call)];
   if (reason.empty()) reason = fmt::format("{}{}", named(kind, name), because);
 }
@@ -114,7 +115,7 @@ Facts factsOf(const Scene& scene, std::span<const Seen> views, const Quality& qu
   Facts facts;
   const Allowed allowed(options);
   for (const Seen& view : views) {
-    for (const scene::Batch& b : view.batches) addBatch(scene, view.instances[b.first], b.count > 1, quality, allowed, facts);
+    for (const scene::Batch& b : view.batches) addBatch(scene, view.instances[b.first], int(b.count), quality, allowed, facts);
     addGroups(scene, view, allowed, facts);
     addLights(scene, view.lights, facts);
     if (view.fogDepth > scene::kLeastFog) facts.why[std::size_t(Call::Fog)] = "the scene's fog";

@@ -28,7 +28,8 @@ void lookEverywhere(const Scene& scene, const scene::Derived& derived, const Vie
 enum class Call : std::uint8_t { Geometry, Deformation, TwoSided, AlphaTest, BakedOcclusion, Emissive, Directional, Local, Environment, Background, AlphaBlend, Glass, Fog, Count };
 struct Facts {
   std::array<std::string, std::size_t(Call::Count)> why;  ///< the first thing that calls; empty: nothing does
-  int directionalLights = 0, localLights = 0;
+  std::array<int, std::size_t(Call::Count)> objects{};    ///< how many call, instances or lights, counted once a view
+  int directionalLights = 0, localLights = 0;              ///< of the view that has most
   bool spots = false;
   std::set<DeformVariant> deformVariants;
   std::set<GeometryVariant> variants, emissiveVariants;  ///< of opaque surfaces
@@ -37,8 +38,8 @@ struct Facts {
   bool refracts = false, blurs = false;  ///< glass that reads the picture behind it; from its mip levels too
 
   [[nodiscard]] bool has(Call call) const { return !why[std::size_t(call)].empty(); }
-  /// Keeps the first caller: an object of that kind and name, and why it calls.
-  void call(Call call, std::string_view kind, const std::string& name, std::string_view because);
+  /// Counts `count` callers and keeps the first: a thing of that kind and name, and why it calls.
+  void call(Call call, std::string_view kind, const std::string& name, std::string_view because, int count = 1);
 };
 /// `options`: transparent surfaces are opaque ones where their effect is taken off the list or the debug view shows none.
 Facts factsOf(const Scene& scene, std::span<const Seen> views, const Quality& quality, const PlanOptions& options);

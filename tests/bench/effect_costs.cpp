@@ -13,6 +13,8 @@
 #include <iostream>
 #include <map>
 
+#include "paths.h"
+
 using namespace burnish;
 
 namespace {
@@ -115,8 +117,10 @@ double unitMs(const std::string& program) {
 
 std::string inUnits(double ms, double unit) { return unit > 0 ? fmt::format(" {:.2f} |", ms / unit) : std::string(); }
 
-std::string rowOf(const std::string& name, const Spread& s, double unit, glm::ivec2 size) {
-  return fmt::format("| {} | {:.2f} | {:.2f} to {:.2f} |{} {:.2f} |\n", name, s.median, s.low, s.high, inUnits(s.median, unit), s.median * 1e6 / (double(size.x) * double(size.y)));
+/// objects: what in view calls for the effect, 0 for a setting.
+std::string rowOf(const std::string& name, const Spread& s, double unit, glm::ivec2 size, int objects) {
+  const std::string each = objects > 0 ? fmt::format("{} | {:.1f}", objects, s.median * 1e3 / objects) : std::string("- | -");
+  return fmt::format("| {} | {:.2f} | {:.2f} to {:.2f} |{} {:.2f} | {} |\n", name, s.median, s.low, s.high, inUnits(s.median, unit), s.median * 1e6 / (double(size.x) * double(size.y)), each);
 }
 
 std::string sampleText(Context& context, const std::string& name, const Arguments& a, glm::ivec2 size, int rounds) {
@@ -150,11 +154,11 @@ std::string sampleText(Context& context, const std::string& name, const Argument
   }
   const Spread total = spreadOf(totals);
   text += fmt::format("| frame | {:.2f} | {:.2f} to {:.2f} |{} |\n", total.median, total.low, total.high, inUnits(total.median, unit));
-  text += fmt::format("\nEffects, each against the frame without it.\n\n| effect | ms | quartiles |{} ns a pixel |\n|---|---|---|{}---|\n", unitColumn, unitLine);
+  text += fmt::format("\nEffects, each against the frame without it.\n\n| effect | ms | quartiles |{} ns a pixel | objects | µs an object |\n|---|---|---|{}---|---|---|\n", unitColumn, unitLine);
   for (const EffectPlan& e : plan.effects) {
     if (!e.on || e.name == "geometry" || e.name == "tone_mapping") continue;  // without them there is no picture
     Variant without(bench, {}, {e.name});
-    text += rowOf(e.name, difference(usual, without, rounds), unit, size);
+    text += rowOf(e.name, difference(usual, without, rounds), unit, size, e.objects);
     std::cerr << fmt::format("effect_costs: {}: {}\n", name, e.name);
   }
   for (const auto& [term, rung, otherwise] : kSettings) {
@@ -163,7 +167,7 @@ std::string sampleText(Context& context, const std::string& name, const Argument
     if (auto set = setRung(none, term, otherwise); !set) stop(set.error());
     Variant on(bench, with, {}), off(bench, none, {});
     if (on.plan().programs == off.plan().programs && on.plan().targets == off.plan().targets) continue;  // the scene does not call for it
-    text += rowOf(fmt::format("{}={}", term, rung), difference(on, off, rounds), unit, size);
+    text += rowOf(fmt::format("{}={}", term, rung), difference(on, off, rounds), unit, size, 0);
     std::cerr << fmt::format("effect_costs: {}: {}={}\n", name, term, rung);
   }
   return text;
@@ -190,7 +194,8 @@ int main(int argc, char** argv) {
   if (!caps) stop(caps.error());
   std::string text = fmt::format(
       "# What each effect costs\n\n<!-- Written by effect_costs: do not edit. -->\nPrinted by `build/release/bin/effect_costs -o docs/effects.md{}` (camera `{}`, {}x{}, {} rounds) on {}. {}; medians of the\n"
-      "rounds with quartiles, frames with and without an effect alternating. A figure within its own quartiles of 0 is nothing. Compare figures within a sample only.\n",
+      "rounds with quartiles, frames with and without an effect alternating. A figure within its own quartiles of 0 is nothing. Compare figures within a sample only.\n"
+      "Objects are the instances or lights in view that call for the effect.\n",
       a.unit.empty() ? "" : " --unit build/release/bin/unit_pass", a.camera, size.x, size.y, rounds, caps->renderer,
       caps->software ? "CPU milliseconds of the process, each pass finished before the next" : "GPU milliseconds");
   for (std::size_t at = 0; at <= a.samples.size();) {

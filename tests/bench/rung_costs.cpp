@@ -13,6 +13,8 @@
 #include <iostream>
 #include <map>
 
+#include "paths.h"
+
 using namespace burnish;
 
 namespace {

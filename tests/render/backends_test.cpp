@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "paths.h"
+
 using namespace burnish;
 
 namespace {

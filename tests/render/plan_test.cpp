@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <array>
 
 #include "gl/formats.h"
 #include "plan/formats.h"
@@ -94,6 +95,34 @@ TEST_CASE("every pass and target of a plan has an effect that calls for it, and 
     for (const EffectPlan& e : plan.effects)
       if (!e.on) CHECK((e.passes.empty() && e.targets.empty() && e.programs.empty() && e.bytes == 0));
   }
+}
+
+TEST_CASE("effects count the objects in view that call for them, in every view") {
+  Scene scene;
+  const Id<Mesh> ball = scene.meshes.add(sphere(0.3f, 8, 16));
+  Material glowing;
+  glowing.emission = vec3(1);
+  const Id<Material> emits = scene.materials.add(std::move(glowing)), plain = scene.materials.add(Material{});
+  const auto put = [&](Id<Material> material, float x, float z) {
+    Instance i;
+    i.mesh = ball;
+    i.material = material;
+    i.node = scene.nodes.add(Node{.local = glm::translate(glm::dmat4(1), dvec3(x, 0, z))});
+    scene.instances.add(std::move(i));
+  };
+  for (int i = 0; i < 12; ++i) put(plain, float(i % 4) - 1.5f, -float(i / 4));  // enough of them to become one draw
+  for (int i = 0; i < 3; ++i) put(emits, float(i) - 1.0f, -4);
+  put(emits, 0, 40);  // behind the eye
+  addLight(scene, light(LightKind::Point, vec3(1), 10, 50), {0, 2, 0});
+  addLight(scene, light(LightKind::Point, vec3(1), 10, 50), {0, -2, 0});
+  const std::array<View, 2> views{lookAt({0, 0, 6}, {0, 0, 0}), lookAt({0, 0, 6}, {0, 0, 0})};
+  const FramePlan one = planOf(scene, views[0]), two = makePlan(scene, views, {}, Capabilities{}, {.size = {64, 64}});
+  CHECK(effectOf(one, "geometry").objects == 15);
+  CHECK(effectOf(one, "emissive").objects == 3);
+  CHECK(effectOf(one, "local_lights").objects == 2);
+  CHECK(effectOf(one, "directional_lights").objects == 0);
+  CHECK(effectOf(one, "tone_mapping").objects == 0);
+  CHECK(effectOf(two, "emissive").objects == 6);
 }
 
 TEST_CASE("the log says which effects went on and off, once, and why") {

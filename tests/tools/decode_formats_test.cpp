@@ -10,6 +10,7 @@
 #include "decode_jpegs.h"
 #include "decode_pictures.h"
 #include "image/encode.h"
+#include "paths.h"
 
 using namespace burnish;
 using namespace decode_test;

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "paths.h"
+
 namespace decode_test {
 
 using Bytes = std::vector<std::byte>;

@@ -313,7 +313,7 @@ class Plan(Program):
         self.assertEqual(list(plan), PLAN_KEYS)
         self.assertEqual(plan["schema_version"], 1)
         for effect in plan["effects"]:
-            self.assertEqual(list(effect), ["name", "on", "called_by", "reason", "passes", "programs", "targets", "bytes"])
+            self.assertEqual(list(effect), ["name", "on", "called_by", "reason", "objects", "passes", "programs", "targets", "bytes"])
             self.assertEqual(bool(effect["passes"] or effect["targets"]) and not effect["on"], False)
             self.assertIn(effect["called_by"], ("scene", "setting"))
             self.assertTrue(effect["reason"], effect)

@@ -11,6 +11,7 @@
 #include <set>
 
 #include "asset/asset.h"
+#include "paths.h"
 
 namespace gltf_test {
 

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "paths.h"
 #include "scene/tangents.h"
 
 using namespace burnish;

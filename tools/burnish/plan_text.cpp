@@ -14,6 +14,7 @@ Json planJson(const burnish::FramePlan& plan) {
                               {"on", effect.on},
                               {"called_by", effect.calledBy == burnish::CalledBy::Scene ? "scene" : "setting"},
                               {"reason", effect.reason},
+                              {"objects", effect.objects},
                               {"passes", effect.passes},
                               {"programs", effect.programs},
                               {"targets", effect.targets},
@@ -29,6 +30,11 @@ Json planJson(const burnish::FramePlan& plan) {
 
 namespace {
 std::string namesOr(const std::vector<std::string>& names, const char* none) { return names.empty() ? none : listed(names); }
+
+std::string callerOf(const burnish::EffectPlan& effect) {
+  if (effect.calledBy == burnish::CalledBy::Setting) return "setting";
+  return effect.objects > 1 ? fmt::format("scene, {} objects", effect.objects) : "scene";
+}
 }  // namespace
 
 std::string costOf(const burnish::EffectPlan& effect) {
@@ -42,7 +48,7 @@ std::string costOf(const burnish::EffectPlan& effect) {
 void printPlan(const burnish::FramePlan& plan) {
   fmt::print("effects\n");
   for (const auto& effect : plan.effects)
-    fmt::print("  {:<3} {:<24} {} ({}){}\n", effect.on ? "on" : "off", effect.name, effect.reason, effect.calledBy == burnish::CalledBy::Scene ? "scene" : "setting", costOf(effect));
+    fmt::print("  {:<3} {:<24} {} ({}){}\n", effect.on ? "on" : "off", effect.name, effect.reason, callerOf(effect), costOf(effect));
   fmt::print("passes\n");
   for (const auto& pass : plan.passes) {
     fmt::print("  {:<14} reads {}; writes {}\n", pass.name, namesOr(pass.reads, "nothing"), namesOr(pass.writes, "nothing"));

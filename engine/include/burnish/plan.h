@@ -44,6 +44,7 @@ struct EffectPlan {
   bool on = false;
   CalledBy calledBy = CalledBy::Scene;
   std::string reason;  ///< why it is on, or what would call for it
+  int objects = 0;     ///< instances or lights in view that call for it, counted once a view; 0 where it is off, or called for by a setting or the surroundings
   std::vector<std::string> passes, programs, targets;  ///< those that it calls for, alone or with others; empty when it is off
   std::uint64_t bytes = 0;                             ///< of those targets
 };
