@@ -50,6 +50,7 @@ struct Material {
   TextureRef specularTexture, specularColorTexture;
   float anisotropy = 0;                   ///< KHR_materials_anisotropy: strength, 0..1
   float anisotropyRotation = 0;           ///< radians, counter-clockwise from the tangent
+  float diffuseRoughness = 0;             ///< extras.burnish.diffuseRoughness: Oren and Nayar's sigma, radians, 0..1
   float transmission = 0;                 ///< KHR_materials_transmission, 0..1
   float thickness = 0;                    ///< KHR_materials_volume: metres of the mesh
   glm::vec3 attenuationColor{1};

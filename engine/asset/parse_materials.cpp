@@ -183,6 +183,18 @@ void parseSubstance(const At& at, Check& check, Material& m) {
   });
 }
 
+/// `extras.burnish.diffuseRoughness`, Oren and Nayar's sigma. A fault in it is a warning too.
+void parseDiffuseRoughness(const At& at, Check& check, Material& m) {
+  check.withOwnExtras(at, [&](const At& ours) {
+    const auto sigma = ours->find("diffuseRoughness");
+    if (sigma == ours->end()) return;
+    const std::string path = At(ours, "diffuseRoughness", *sigma).path();
+    if (!sigma->is_number() || !(sigma->get<double>() >= 0) || !(sigma->get<double>() <= 1))
+      return check.warn(path, "a number from 0 to 1 (radians) is expected: it is left out");
+    m.diffuseRoughness = sigma->get<float>();
+  });
+}
+
 void parseMaterial(const At& at, Check& check, Document& doc) {
   Material& m = doc.materials.emplace_back();
   check.known(at, {"pbrMetallicRoughness", "normalTexture", "occlusionTexture", "emissiveTexture", "emissiveFactor",
@@ -204,6 +216,7 @@ void parseMaterial(const At& at, Check& check, Document& doc) {
   }
   parseMaterialExtensions(at, check, m);
   parseSubstance(at, check, m);
+  parseDiffuseRoughness(at, check, m);
 }
 
 }  // namespace

@@ -48,6 +48,9 @@ struct Opaque {
   bool blend, glass;
 };
 
+/// Surfaces that write the target of details, or those that do not: the two are drawn apart, so that the others are spared it.
+enum class Share : std::uint8_t { All, Plain, Detailed };
+
 // The pass's program of each variant: looked up once.
 class Programs {
  public:
@@ -78,20 +81,22 @@ class Programs {
 
 // Draws every batch that `wants`, with the pass's program for its variant; `before` runs once it is bound.
 template <class Wants, class Before>
-Result<void> drawInstances(FrameContext& c, plan::GeometryPass pass, bool occlusionTarget, Wants&& wants, Before&& before) {
+Result<void> drawInstances(FrameContext& c, plan::GeometryPass pass, bool occlusionTarget, Share share, Wants&& wants, Before&& before) {
   const GladGLContext& gl = c.device.gl;
   RasterState raster(gl);
   Programs programs(c, pass, occlusionTarget);
   const gl::Program* used = nullptr;
   gpu_scene::BoundInstance bound;
+  const plan::Details details = pass == plan::GeometryPass::GBuffer || pass == plan::GeometryPass::Forward ? plan::detailsOf(c.plan) : plan::Details{false, false};
   const bool counted = pass == plan::GeometryPass::GBuffer || pass == plan::GeometryPass::Forward;
   for (const scene::Batch& batch : c.batches) {
     const scene::VisibleInstance& v = c.visible[batch.first];
     const Material& material = materialOf(c, v);
     if (!wants(material)) continue;
-    plan::GeometryVariant variant = plan::variantOf(material, *v.mesh);
+    plan::GeometryVariant variant = plan::variantOf(material, *v.mesh, details);
     variant.instanced = batch.count > 1;
     if (!occlusionTarget) variant.occlusionMap = variant.packed = false;
+    if (share != Share::All && variant.detail() != (share == Share::Detailed)) continue;
     auto program = programs.of(variant);
     if (!program) return fail(program.error());
     if (!(variant.instanced ? gpu_scene::bindInstances(c, batch, variant.general, bound) : gpu_scene::bindInstance(c, batch.first, variant.general, bound))) continue;
@@ -129,7 +134,16 @@ Result<void> drawGBuffer(FrameContext& c) {
     const float far = 0;
     gl.ClearNamedFramebufferfv(*framebuffer, GL_DEPTH, 0, &far);
   }
-  return drawInstances(c, plan::GeometryPass::GBuffer, occlusion, Opaque(c), [](const Material&) {});
+  const auto nothing = [](const Material&) {};
+  if (!c.targets.texture("gbuffer_d")) return drawInstances(c, plan::GeometryPass::GBuffer, occlusion, Share::All, Opaque(c), nothing);
+  // What has no details comes first: nothing that is drawn later leaves the others' behind in its pixels.
+  if (auto drawn = drawInstances(c, plan::GeometryPass::GBuffer, occlusion, Share::Plain, Opaque(c), nothing); !drawn) return drawn;
+  auto detailed = c.targets.framebuffer({"gbuffer_a", "gbuffer_b", "gbuffer_c", "gbuffer_d"}, "depth");
+  if (!detailed) return fail(detailed.error());
+  gl.BindFramebuffer(GL_FRAMEBUFFER, *detailed);
+  const float none[4] = {0, 0, 0, 0};
+  gl.ClearNamedFramebufferfv(*detailed, GL_COLOR, occlusion ? 3 : 2, none);
+  return drawInstances(c, plan::GeometryPass::GBuffer, occlusion, Share::Detailed, Opaque(c), nothing);
 }
 
 Result<void> drawForward(FrameContext& c) {
@@ -144,7 +158,7 @@ Result<void> drawForward(FrameContext& c) {
   const float black[4] = {0, 0, 0, 1}, far = 0;
   gl.ClearNamedFramebufferfv(*framebuffer, GL_COLOR, 0, black);
   if (!c.plan.on("host_depth_in")) gl.ClearNamedFramebufferfv(*framebuffer, GL_DEPTH, 0, &far);
-  return drawInstances(c, plan::GeometryPass::Forward, c.plan.on("baked_occlusion"), Opaque(c), [](const Material&) {});
+  return drawInstances(c, plan::GeometryPass::Forward, c.plan.on("baked_occlusion"), Share::All, Opaque(c), [](const Material&) {});
 }
 
 Result<void> drawEmissive(FrameContext& c) {
@@ -157,7 +171,7 @@ Result<void> drawEmissive(FrameContext& c) {
   gl.DepthMask(GL_FALSE);
   gl.DepthFunc(GL_EQUAL);
   gl.Enable(GL_BLEND);
-  auto result = drawInstances(c, plan::GeometryPass::Emissive, false, [opaque = Opaque(c)](const Material& m) { return plan::emits(m) && opaque(m); },
+  auto result = drawInstances(c, plan::GeometryPass::Emissive, false, Share::All, [opaque = Opaque(c)](const Material& m) { return plan::emits(m) && opaque(m); },
                               [&gl](const Material& m) { gl.BlendFunc(GL_ONE, m.unlit ? GL_ZERO : GL_ONE); });
   gl.Disable(GL_BLEND);
   gl.DepthMask(GL_TRUE);
@@ -169,7 +183,7 @@ Result<void> drawPick(FrameContext& c) {
   gl.Enable(GL_DEPTH_TEST);
   gl.DepthMask(GL_TRUE);
   gl.DepthFunc(GL_GREATER);
-  return drawInstances(c, plan::GeometryPass::Pick, false, [](const Material&) { return true; }, [](const Material&) {});
+  return drawInstances(c, plan::GeometryPass::Pick, false, Share::All, [](const Material&) { return true; }, [](const Material&) {});
 }
 
 }  // namespace burnish::gbuffer

@@ -66,6 +66,7 @@ MaterialData dataOf(const Material& m) {
   // Within one turn, where sine and cosine keep their precision.
   d.conductorK.w = std::isfinite(m.anisotropyRotation) ? std::remainder(m.anisotropyRotation, 6.2831853f) : 0;
   d.glass = {unit(m.transmission, 0), finiteOr(m.thickness, 0, 1e9f, 0), m.ior >= 1 ? finiteOr(m.ior, 1, 100, 1.5f) : 0.0f, m.blend ? 1.0f : 0.0f};
+  d.attenuation.w = unit(m.diffuseRoughness, 0);
   // Beer-Lambert: color = exp(-absorption · distance). A channel of no light at all stands for a millionth.
   if (m.attenuationDistance > 0 && std::isfinite(m.attenuationDistance))
     for (int i = 0; i < 3; ++i) d.attenuation[i] = std::min(-std::log(finiteOr(m.attenuationColor[i], 1e-6f, 1, 1)) / m.attenuationDistance, 1e9f);

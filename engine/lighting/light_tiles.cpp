@@ -135,6 +135,33 @@ void TileCuller::cullLight(const scene::ViewFrame& view, const scene::LocalLight
     }
 }
 
+// The box's extremes on the image plane, from its corners; one that reaches the near plane may be anywhere.
+void TileCuller::markDetail(const scene::ViewFrame& view, const DetailBox& box) {
+  glm::dvec3 low(1e300), high(-1e300);
+  glm::dvec2 imageLow(1e300), imageHigh(-1e300);
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::dvec3 sign(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1), p = glm::dvec3(box.center) + sign * glm::dvec3(box.extent) * 1.0001;
+    const glm::dvec3 q(glm::dot(view.axes[0], p), glm::dot(view.axes[1], p), -glm::dot(view.axes[2], p));
+    low = glm::min(low, q);
+    high = glm::max(high, q);
+    const glm::dvec2 image = glm::dvec2(q) / (view.orthographic ? 1.0 : std::max(q.z, 1e-9));
+    imageLow = glm::min(imageLow, image);
+    imageHigh = glm::max(imageHigh, image);
+  }
+  if (!view.orthographic && high.z < near_) return;
+  const bool whole = !view.orthographic && low.z < near_ * 1.01;
+  const auto tileAt = [](double image, double tan, double pixels, int tiles) { return int(std::clamp(std::floor((image / tan + 1) * 0.5 * pixels / TILE_SIZE), -1.0, double(tiles))); };
+  const double w = view.viewport.z, h = view.viewport.w;
+  const int tx0 = whole ? 0 : std::max(tileAt(imageLow.x, view.tanX, w, columns_), 0), tx1 = whole ? columns_ - 1 : std::min(tileAt(imageHigh.x, view.tanX, w, columns_), columns_ - 1);
+  const int ty0 = whole ? 0 : std::max(tileAt(imageLow.y, view.tanY, h, rows_), 0), ty1 = whole ? rows_ - 1 : std::min(tileAt(imageHigh.y, view.tanY, h, rows_), rows_ - 1);
+  const auto meets = [&](const Box& b) { return double(b.maxZ) >= low.z && double(b.minZ) <= high.z; };
+  for (int ty = ty0; ty <= ty1; ++ty)
+    for (int tx = tx0; tx <= tx1; ++tx) {
+      const std::size_t i = std::size_t(ty * columns_ + tx);
+      if (slices_[i] > 0 && (meets(boxes_[i][0]) || (slices_[i] == 2 && meets(boxes_[i][1])))) detail_[i] = 1;
+    }
+}
+
 // Two counting sorts: pairs by tile, then tiles by program.
 void TileCuller::buildLists(std::span<const scene::LocalLight> lights) {
   const std::size_t tiles = slices_.size();
@@ -158,11 +185,11 @@ void TileCuller::buildLists(std::span<const scene::LocalLight> lights) {
   lists_.groups.clear();
   lists_.entries.clear();
   std::vector<std::uint8_t> seen(lights.size() + 1);
-  const auto addGroup = [&](int bucket) {
-    TileGroup g{bucket, int(lists_.tiles.size()), 0};
+  const auto addGroup = [&](int bucket, bool detail) {
+    TileGroup g{bucket, int(lists_.tiles.size()), 0, detail};
     for (std::size_t i = 0; i < tiles; ++i) {
-      if (slices_[i] == 0) continue;
-      const int own = spots_[i] ? plan::kLoopSpots : bucketOf(counts_[i]);
+      if (slices_[i] == 0 || bool(detail_[i]) != detail) continue;
+      const int own = spots_[i] ? plan::kLoopSpots : detail && counts_[i] > 0 ? plan::kLoop : bucketOf(counts_[i]);
       if (own != bucket) continue;
       const std::size_t first = lists_.entries.size();
       for (std::uint32_t k = 0; k < counts_[i]; ++k) {
@@ -176,9 +203,10 @@ void TileCuller::buildLists(std::span<const scene::LocalLight> lights) {
     g.count = int(lists_.tiles.size()) - g.first;
     if (g.count > 0) lists_.groups.push_back(g);
   };
-  for (int bucket : plan::kTileBuckets) addGroup(bucket);
-  addGroup(plan::kLoop);
-  addGroup(plan::kLoopSpots);
+  for (int bucket : plan::kTileBuckets) addGroup(bucket, false);
+  addGroup(plan::kLoop, false);
+  addGroup(plan::kLoopSpots, false);
+  for (int bucket : plan::kDetailBuckets) addGroup(bucket, true);
   lists_.lightsInView = int(std::count(seen.begin(), seen.end(), 1));
   if (lists_.entries.empty()) lists_.entries.push_back(0);
 }
@@ -190,13 +218,15 @@ void TileCuller::listBackground(std::span<const TileDepth> depths) {
   lists_.background.count = int(lists_.tiles.size()) - lists_.background.first;
 }
 
-const TileLists& TileCuller::cull(const scene::ViewFrame& view, std::span<const TileDepth> depths, std::span<const scene::LocalLight> lights) {
+const TileLists& TileCuller::cull(const scene::ViewFrame& view, std::span<const TileDepth> depths, std::span<const scene::LocalLight> lights, std::span<const DetailBox> details) {
   columns_ = (view.viewport.z + TILE_SIZE - 1) / TILE_SIZE;
   rows_ = (view.viewport.w + TILE_SIZE - 1) / TILE_SIZE;
   near_ = view.near;
   boundTiles(view, depths);
   pairs_.clear();
   for (std::size_t i = 0; i < lights.size(); ++i) cullLight(view, lights[i], std::uint16_t(i + 1));
+  detail_.assign(depths.size(), 0);
+  for (const DetailBox& box : details) markDetail(view, box);
   buildLists(lights);
   listBackground(depths);
   return lists_;

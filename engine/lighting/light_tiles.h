@@ -27,6 +27,11 @@ using TileVertex = glm::ivec4;
 struct TileGroup {
   int bucket = 0;
   int first = 0, count = 0;  ///< in tiles
+  bool detail = false;       ///< the program that reads the target of details (plan::kDetailBuckets)
+};
+/// A box along the world's axes, relative to the eye: middle and half extents.
+struct DetailBox {
+  glm::vec3 center{0}, extent{0};
 };
 struct TileLists {
   std::vector<TileVertex> tiles;        ///< those with something to light, grouped; then those that show the background
@@ -39,7 +44,8 @@ struct TileLists {
 class TileCuller {
  public:
   /// No false negatives: every light whose sphere (and cone) touches a surface between the tile's depths is listed. Lights past 65534 are left out by the caller.
-  const TileLists& cull(const scene::ViewFrame& view, std::span<const TileDepth> depths, std::span<const scene::LocalLight> lights);
+  /// `details`: around brushed and rough surfaces; tiles that may show one go into groups of their own.
+  const TileLists& cull(const scene::ViewFrame& view, std::span<const TileDepth> depths, std::span<const scene::LocalLight> lights, std::span<const DetailBox> details = {});
 
  private:
   struct Pair {
@@ -48,6 +54,7 @@ class TileCuller {
   };
   void boundTiles(const scene::ViewFrame& view, std::span<const TileDepth> depths);
   void cullLight(const scene::ViewFrame& view, const scene::LocalLight& light, std::uint16_t index);
+  void markDetail(const scene::ViewFrame& view, const DetailBox& box);
   void buildLists(std::span<const scene::LocalLight> lights);
   void listBackground(std::span<const TileDepth> depths);
 
@@ -59,6 +66,7 @@ class TileCuller {
   };
   std::vector<std::array<Box, 2>> boxes_;
   std::vector<std::uint8_t> slices_;  // 0: nothing is drawn, 1, 2
+  std::vector<std::uint8_t> detail_;
   std::vector<Pair> pairs_;
   std::vector<std::uint32_t> counts_, offsets_;
   std::vector<std::uint8_t> spots_;

@@ -71,6 +71,23 @@ Result<void> LightingPass::uploadLists() {
   return tiles_.write(std::as_bytes(std::span(lists_->tiles)));
 }
 
+namespace {
+
+// Around each surface that writes the target of details.
+std::vector<DetailBox> detailBoxes(const FrameContext& c) {
+  std::vector<DetailBox> boxes;
+  if (!c.targets.texture("gbuffer_d")) return boxes;
+  const plan::Details details = plan::detailsOf(c.plan);
+  const bool blend = c.plan.on("alpha_blend"), glass = c.plan.on("glass");
+  for (const scene::VisibleInstance& v : c.visible) {
+    const Material* m = c.scene.materials.get(v.instance->material);
+    if (m && plan::variantOf(*m, *v.mesh, details).detail() && !plan::drawnTransparent(*m, blend, glass)) boxes.push_back({v.center, v.extent});
+  }
+  return boxes;
+}
+
+}  // namespace
+
 Result<void> LightingPass::buildTiles(FrameContext& c) {
   if (auto read = readTileDepths(c); !read) return read;
   std::span<const scene::LocalLight> lights(c.lights.local);
@@ -79,7 +96,7 @@ Result<void> LightingPass::buildTiles(FrameContext& c) {
     c.report.warn("lights", fmt::format("{} point and spot lights: {} is the limit, the rest is off", lights.size(), limit));
     lights = lights.first(limit);
   }
-  lists_ = &culler_.cull(c.view, tileDepths_, lights);
+  lists_ = &culler_.cull(c.view, tileDepths_, lights, detailBoxes(c));
   c.stats.lightsInView += lists_->lightsInView;
   if (auto w = uploadLights(c); !w) return w;
   return uploadLists();
@@ -158,12 +175,15 @@ Result<void> LightingPass::shadeTiles(FrameContext& c) {
   gl.BindSamplers(0, 10, nullptr);
   const bool screen = c.plan.on("screen_occlusion"), occlusion = screen || c.plan.on("baked_occlusion"), environment = c.plan.on("environment_lighting");
   if (occlusion) c.targets.texture(screen ? "occlusion" : "gbuffer_c")->bind(UNIT_GBUFFER_C);
+  if (const gl::Texture* detail = c.targets.texture("gbuffer_d")) detail->bind(UNIT_GBUFFER_D);
   if (auto bound = bindSurroundings(c, UNIT_ENVIRONMENT); !bound) return bound;
   lights_.bind(UNIT_LIGHTS);
   entries_.bind(UNIT_LIGHT_LISTS);
   bindTiles();
   for (const TileGroup& g : lists_->groups) {
-    const std::string name = plan::lightingProgram(g.bucket, c.quality, {int(c.lights.directional.size()), environment, occlusion, c.view.orthographic}).name;
+    plan::LightingVariant lighting{int(c.lights.directional.size()), environment, occlusion, c.view.orthographic};
+    if (g.detail) lighting.details = plan::detailsOf(c.plan);
+    const std::string name = plan::lightingProgram(g.bucket, c.quality, lighting).name;
     const gl::Program* program = c.programs.find(name);
     if (!program) return fail("frame plan", fmt::format("program '{}' is not in it", name), "report this as a fault of the engine");
     program->use();

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "plan/rungs.h"
+
 namespace burnish::plan {
 namespace {
 
@@ -17,6 +19,15 @@ Verdict alphaTest(const Situation& s) { return sceneCalls(s, Call::AlphaTest, "a
 Verdict bakedOcclusion(const Situation& s) {
   return provided(sceneCalls(s, Call::BakedOcclusion, s.quality.occlusion == Occlusion::None ? "the quality turns it off" : "a material with an occlusion map would call for it"),
                   s.final() || s.options.debugView == DebugView::Occlusion, kNotShown);
+}
+
+Verdict anisotropy(const Situation& s) {
+  const char* otherwise = s.quality.anisotropy == Anisotropy::None ? "the quality turns it off" : drawsBrushed(s.quality) ? "a material with anisotropy would call for it" : "the specular model has one width";
+  return provided(sceneCalls(s, Call::Anisotropy, otherwise), s.final() || s.options.debugView == DebugView::Anisotropy, kNotShown);
+}
+Verdict roughDiffuse(const Situation& s) {
+  const char* otherwise = s.quality.roughDiffuse == RoughDiffuse::None ? "the quality turns it off" : "a material with a diffuse roughness would call for it";
+  return provided(sceneCalls(s, Call::RoughDiffuse, otherwise), s.final() || s.options.debugView == DebugView::DiffuseRoughness, kNotShown);
 }
 
 Verdict emissive(const Situation& s) { return provided(sceneCalls(s, Call::Emissive, "a material with emission would call for it"), s.final(), kNotShown); }
@@ -113,6 +124,8 @@ constexpr EffectRow kRows[] = {
     {{"two_sided", CalledBy::Scene, "surfaces seen from both sides"}, twoSided, false},
     {{"alpha_test", CalledBy::Scene, "holes where opacity is under the cutoff"}, alphaTest, false},
     {{"baked_occlusion", CalledBy::Scene, "occlusion maps"}, bakedOcclusion, false},
+    {{"anisotropy", CalledBy::Scene, "brushed surfaces: highlights of two widths"}, anisotropy, false},
+    {{"rough_diffuse", CalledBy::Scene, "surfaces with a diffuse roughness of their own"}, roughDiffuse, false},
     {{"emissive", CalledBy::Scene, "surfaces that emit"}, emissive},
     {{"alpha_blend", CalledBy::Scene, "surfaces drawn over what is behind them"}, alphaBlend},
     {{"glass", CalledBy::Scene, "surfaces that refract what is behind them"}, glass},

@@ -6,7 +6,7 @@
 namespace burnish {
 namespace {
 constexpr std::array<std::string_view, 4> kToneMaps{"none", "neutral", "agx", "aces"};
-constexpr std::array<std::string_view, 10> kDebugViews{"final", "albedo", "substance", "normal", "roughness", "depth", "position", "occlusion", "lights", "nonfinite"};
+constexpr std::array<std::string_view, 12> kDebugViews{"final", "albedo", "substance", "normal", "roughness", "depth", "position", "occlusion", "lights", "nonfinite", "anisotropy", "diffuse-roughness"};
 }  // namespace
 
 std::span<const std::string_view> toneMapNames() { return kToneMaps; }

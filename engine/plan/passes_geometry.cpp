@@ -20,12 +20,16 @@ void addGBuffer(Builder& b) {
   if (s.hasDepth()) b.target("depth", "DEPTH_COMPONENT32F", {"geometry", "host_depth_in"});
   if (!s.hasDepth() || s.forward()) return;
   const bool occlusion = s.on("baked_occlusion");
-  PassPlan& pass = b.pass("gbuffer", {"geometry", "host_depth_in", "two_sided", "alpha_test", "baked_occlusion"}, {"meshes", "materials"}, {"gbuffer_a", "gbuffer_b"});
+  PassPlan& pass = b.pass("gbuffer", {"geometry", "host_depth_in", "two_sided", "alpha_test", "baked_occlusion", "anisotropy", "rough_diffuse"}, {"meshes", "materials"}, {"gbuffer_a", "gbuffer_b"});
   b.target("gbuffer_a", "RGBA8", {"geometry", "host_depth_in"});
   b.target("gbuffer_b", "RGBA8", {"geometry", "host_depth_in"});
   if (occlusion) {
     b.target("gbuffer_c", "R8", {"baked_occlusion"});
     pass.writes.push_back("gbuffer_c");
+  }
+  if (s.detailTarget()) {
+    b.target("gbuffer_d", "RGBA8", {"anisotropy", "rough_diffuse"});
+    pass.writes.push_back("gbuffer_d");
   }
   pass.writes.push_back("depth");
   if (!s.on("geometry")) return;
@@ -36,7 +40,7 @@ void addGBuffer(Builder& b) {
 void addForward(Builder& b) {
   const Situation& s = b.s;
   if (!s.forward()) return;
-  PassPlan& pass = b.pass("forward", {"forward_reference", "fog"}, {"meshes", "materials", "lights"}, {"light", "depth"});
+  PassPlan& pass = b.pass("forward", {"forward_reference", "fog", "anisotropy", "rough_diffuse"}, {"meshes", "materials", "lights"}, {"light", "depth"});
   const bool environment = s.on("environment_lighting");
   if (needsCube(s.quality, environment)) pass.reads.push_back("environment cube");
   if (needsDfg(s.quality, environment)) pass.reads.push_back("dfg");

@@ -45,6 +45,11 @@ void addLighting(Builder& b) {
     pass.reads.push_back("occlusion");
   else if (s.on("baked_occlusion"))
     pass.reads.push_back("gbuffer_c");
+  if (s.detailTarget()) {
+    pass.reads.push_back("gbuffer_d");
+    for (const char* effect : {"anisotropy", "rough_diffuse"})
+      if (s.on(effect)) pass.effects.emplace_back(effect);
+  }
   if (needsCube(s.quality, environment)) pass.reads.push_back("environment cube");
   if (needsDfg(s.quality, environment)) pass.reads.push_back("dfg");
   for (bool orthographic : s.projections()) {
@@ -55,6 +60,11 @@ void addLighting(Builder& b) {
     }
     if (local) b.use(pass, lightingProgram(kLoop, s.quality, s.lighting(orthographic)));
     if (local && s.facts.spots) b.use(pass, lightingProgram(kLoopSpots, s.quality, s.lighting(orthographic)));
+    if (!s.detailTarget()) continue;
+    LightingVariant detailed = s.lighting(orthographic);
+    detailed.details = s.details();
+    for (int bucket : kDetailBuckets)
+      if (bucket == 0 || (local && (bucket == kLoop || s.facts.spots))) b.use(pass, lightingProgram(bucket, s.quality, detailed));
   }
 }
 

@@ -55,9 +55,10 @@ void addDebugView(Builder& b) {
   const bool nonfinite = s.options.debugView == DebugView::Nonfinite;
   PassPlan& pass = b.pass("debug_view", {"debug_view"}, nonfinite ? std::vector<std::string>{"light"} : std::vector<std::string>{"gbuffer_a", "gbuffer_b", "depth"}, {"target"});
   if (s.on("screen_occlusion")) pass.reads.push_back("occlusion");
+  if (s.detailTarget()) pass.reads.push_back("gbuffer_d");
   for (bool o : s.projections())
     b.useScreen(pass, o ? "debug_view+ortho" : "debug_view", "post/debug.frag",
-                {define("GEOMETRY", s.hasDepth()), define("OCCLUSION", s.on("baked_occlusion") || s.on("screen_occlusion")), define("ORTHOGRAPHIC", o), define("VIEW", int(s.options.debugView))});
+                {define("DETAIL", s.detailTarget()), define("GEOMETRY", s.hasDepth()), define("OCCLUSION", s.on("baked_occlusion") || s.on("screen_occlusion")), define("ORTHOGRAPHIC", o), define("VIEW", int(s.options.debugView))});
 }
 
 void addDepthOut(Builder& b) {

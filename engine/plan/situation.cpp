@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "interface/limits.h"
+#include "plan/rungs.h"
 #include "scene/fog.h"
 
 namespace burnish::plan {
@@ -12,19 +13,28 @@ namespace {
 
 std::string named(std::string_view kind, const std::string& name) { return name.empty() ? fmt::format("an unnamed {}", kind) : fmt::format("{} '{}'", kind, name); }
 
-/// Which transparent surfaces there can be at all.
+/// Which transparent surfaces and which details there can be at all.
 struct Allowed {
   bool blend, glass;
-  explicit Allowed(const PlanOptions& o) {
+  Details details;
+  Allowed(const PlanOptions& o, const Quality& quality) {
     const bool final = o.debugView == DebugView::Final || o.debugView == DebugView::Nonfinite;
-    const auto listed = [&](std::string_view name) { return final && std::find(o.removed.begin(), o.removed.end(), name) == o.removed.end(); };
-    blend = listed("alpha_blend");
-    glass = listed("glass");
+    const auto listed = [&](std::string_view name) { return std::find(o.removed.begin(), o.removed.end(), name) == o.removed.end(); };
+    blend = final && listed("alpha_blend");
+    glass = final && listed("glass");
+    details.brushed = (final || o.debugView == DebugView::Anisotropy) && drawsBrushed(quality) && listed("anisotropy");
+    details.rough = (final || o.debugView == DebugView::DiffuseRoughness) && quality.roughDiffuse != RoughDiffuse::None && listed("rough_diffuse");
   }
 };
 
-void addTransparent(const Material& material, const Mesh& mesh, int count, const Quality& quality, Facts& facts) {
-  const TransparentVariant variant = transparentVariantOf(material, mesh, quality.occlusion != Occlusion::None);
+void callDetails(const Material& material, const GeometryVariant& variant, int count, Facts& facts) {
+  if (variant.brushed) facts.call(Call::Anisotropy, "material", material.name, " is brushed", count);
+  if (variant.rough) facts.call(Call::RoughDiffuse, "material", material.name, " is rough", count);
+}
+
+void addTransparent(const Material& material, const Mesh& mesh, int count, const Quality& quality, Details details, Facts& facts) {
+  const TransparentVariant variant = transparentVariantOf(material, mesh, quality.occlusion != Occlusion::None, details);
+  callDetails(material, variant.geometry, count, facts);
   const bool glass = scene::isGlass(material);
   facts.call(glass ? Call::Glass : Call::AlphaBlend, "material", material.name, glass ? " is glass" : " is blended", count);
   (glass ? facts.glass : facts.blended).insert(variant);
@@ -34,7 +44,7 @@ void addBatch(const Scene& scene, const scene::VisibleInstance& seen, int count,
   static const Material kDefault;
   const Material* found = scene.materials.get(seen.instance->material);
   const Material& material = found ? *found : kDefault;
-  GeometryVariant variant = variantOf(material, *seen.mesh);
+  GeometryVariant variant = variantOf(material, *seen.mesh, allowed.details);
   variant.instanced = count > 1;
   if (quality.occlusion == Occlusion::None) variant.occlusionMap = variant.packed = false;
   facts.call(Call::Geometry, "instance", seen.instance->name, "", count);
@@ -45,12 +55,13 @@ void addBatch(const Scene& scene, const scene::VisibleInstance& seen, int count,
   if (material.twoSided) facts.call(Call::TwoSided, "material", material.name, " is two-sided", count);
   if (variant.occlusionMap) facts.call(Call::BakedOcclusion, "material", material.name, " has an occlusion map", count);
   if (variant.alphaTest) facts.call(Call::AlphaTest, "material", material.name, " is alpha tested", count);
-  if (drawnTransparent(material, allowed.blend, allowed.glass)) return addTransparent(material, *seen.mesh, count, quality, facts);
+  if (drawnTransparent(material, allowed.blend, allowed.glass)) return addTransparent(material, *seen.mesh, count, quality, allowed.details, facts);
+  callDetails(material, variant, count, facts);
+  facts.details |= variant.detail();
   facts.variants.insert(variant);
   if (!emits(material)) return;
   facts.call(Call::Emissive, "material", material.name, material.unlit ? " is unlit" : " emits", count);
-  variant.occlusionMap = variant.packed = false;
-  facts.emissiveVariants.insert(variant);
+  facts.emissiveVariants.insert(variant.shapeOnly());
 }
 
 void addGroups(const Scene& scene, const Seen& view, Allowed allowed, Facts& facts) {
@@ -113,7 +124,7 @@ void Facts::call(Call call, std::string_view kind, const std::string& name, std:
 
 Facts factsOf(const Scene& scene, std::span<const Seen> views, const Quality& quality, const PlanOptions& options) {
   Facts facts;
-  const Allowed allowed(options);
+  const Allowed allowed(options, quality);
   for (const Seen& view : views) {
     for (const scene::Batch& b : view.batches) addBatch(scene, view.instances[b.first], int(b.count), quality, allowed, facts);
     addGroups(scene, view, allowed, facts);
@@ -127,6 +138,12 @@ Facts factsOf(const Scene& scene, std::span<const Seen> views, const Quality& qu
 bool Situation::on(std::string_view effect) const {
   const auto found = std::find_if(effects.begin(), effects.end(), [&](const EffectPlan& e) { return e.name == effect; });
   return found != effects.end() && found->on;
+}
+
+// Of transparent ones alone the forward shading knows all that it needs; an effect that is forced has its target.
+bool Situation::detailTarget() const {
+  const bool called = (on("anisotropy") && facts.has(Call::Anisotropy)) || (on("rough_diffuse") && facts.has(Call::RoughDiffuse));
+  return hasDepth() && !forward() && (on("anisotropy") || on("rough_diffuse")) && (facts.details || !called);
 }
 
 std::vector<bool> Situation::projections() const {

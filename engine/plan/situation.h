@@ -25,7 +25,7 @@ void look(const Scene& scene, const scene::Derived& derived, const View& view, g
 void lookEverywhere(const Scene& scene, const scene::Derived& derived, const View& view, glm::ivec2 targetSize, const Quality& quality, Report& report, Seen& out);
 
 /// What a scene holds that effects are called by.
-enum class Call : std::uint8_t { Geometry, Deformation, TwoSided, AlphaTest, BakedOcclusion, Emissive, Directional, Local, Environment, Background, AlphaBlend, Glass, Fog, Count };
+enum class Call : std::uint8_t { Geometry, Deformation, TwoSided, AlphaTest, BakedOcclusion, Anisotropy, RoughDiffuse, Emissive, Directional, Local, Environment, Background, AlphaBlend, Glass, Fog, Count };
 struct Facts {
   std::array<std::string, std::size_t(Call::Count)> why;  ///< the first thing that calls; empty: nothing does
   std::array<int, std::size_t(Call::Count)> objects{};    ///< how many call, instances or lights, counted once a view
@@ -34,6 +34,7 @@ struct Facts {
   std::set<DeformVariant> deformVariants;
   std::set<GeometryVariant> variants, emissiveVariants;  ///< of opaque surfaces
   std::set<TransparentVariant> blended, glass;
+  bool details = false;  ///< opaque surfaces among those that are brushed or rough
   bool peels = false;    ///< some transparent surfaces are in no order that holds for the whole picture
   bool refracts = false, blurs = false;  ///< glass that reads the picture behind it; from its mip levels too
 
@@ -74,6 +75,9 @@ struct Situation {
   /// The projections that views have: perspective (false), orthographic (true).
   [[nodiscard]] std::vector<bool> projections() const;
   [[nodiscard]] LightingVariant lighting(bool orthographic) const;
+  /// The G-buffer has its target for brushed and rough surfaces.
+  [[nodiscard]] bool detailTarget() const;
+  [[nodiscard]] Details details() const { return {on("anisotropy"), on("rough_diffuse")}; }
   /// Of surfaces that are shaded where they are drawn: occlusion found on the screen is none of theirs.
   [[nodiscard]] LightingVariant drawnLighting(bool orthographic) const;
 };

@@ -10,7 +10,7 @@
 #include "scene/transparency.h"
 
 namespace burnish::plan {
-GeometryVariant variantOf(const Material& m, const Mesh& mesh) {
+GeometryVariant variantOf(const Material& m, const Mesh& mesh, Details details) {
   const UvMapping plain;
   GeometryVariant v;
   const bool mapped = (m.mapA && m.uvA != plain) || (m.mapB && m.uvB != plain) || (m.mapC && m.uvC != plain) || (m.emissiveMap && m.uvEmissive != plain);
@@ -18,8 +18,12 @@ GeometryVariant variantOf(const Material& m, const Mesh& mesh) {
   v.alphaTest = m.alphaTest;
   v.occlusionMap = m.mapC && m.occlusionStrength > 0;
   v.packed = v.occlusionMap && packsOcclusion(m);
+  v.brushed = details.brushed && m.anisotropy > 0 && !m.unlit;
+  v.rough = details.rough && m.diffuseRoughness > 0 && !m.unlit;
   return v;
 }
+
+Details detailsOf(const FramePlan& plan) { return {plan.on("anisotropy"), plan.on("rough_diffuse")}; }
 
 bool packsOcclusion(const Material& m) { return m.mapB && m.mapC && m.occlusionStrength > 0 && m.uvB == m.uvC && !m.alphaTest && !m.blend; }
 
@@ -39,15 +43,19 @@ ProgramPlan deformProgram(DeformVariant variant) {
 
 bool drawnTransparent(const Material& m, bool blend, bool glass) { return scene::isGlass(m) ? glass : m.blend && blend; }
 
-TransparentVariant transparentVariantOf(const Material& m, const Mesh& mesh, bool occlusion) {
+TransparentVariant transparentVariantOf(const Material& m, const Mesh& mesh, bool occlusion, Details details) {
   TransparentVariant v;
-  v.geometry = occlusion ? variantOf(m, mesh) : variantOf(m, mesh).withoutOcclusion();
+  v.geometry = occlusion ? variantOf(m, mesh, details) : variantOf(m, mesh, details).withoutOcclusion();
   v.through = !scene::isGlass(m) ? Through::Blend : scene::refracts(m) ? Through::Refract : Through::Clear;
   v.coverage = m.blend && (m.mapC || (m.useVertexColor && !mesh.colors.empty()));
   v.emits = emits(m);
   v.faint = v.through != Through::Blend && m.ior >= 1 && m.ior < 1.34f && m.transmission < 1;
   return v;
 }
+
+namespace {
+std::string namesOf(Details d) { return fmt::format("{}{}", d.brushed ? "+brushed" : "", d.rough ? "+rough" : ""); }
+}  // namespace
 
 ProgramPlan geometryProgram(GeometryPass pass, GeometryVariant variant, bool occlusionTarget) {
   ProgramPlan p;
@@ -61,6 +69,10 @@ ProgramPlan geometryProgram(GeometryPass pass, GeometryVariant variant, bool occ
   if (pass == GeometryPass::GBuffer) {
     p.defines.push_back(define("OCCLUSION", !occlusionTarget ? 0 : !variant.occlusionMap ? 2 : variant.packed ? 3 : 1));
     if (occlusionTarget) p.name += !variant.occlusionMap ? "+unoccluded" : variant.packed ? "+ao" : "+ao_map";
+    p.defines.push_back(define("ANISOTROPIC", variant.brushed));
+    p.defines.push_back(define("ROUGH_DIFFUSE", variant.rough));
+    std::sort(p.defines.begin(), p.defines.end());
+    p.name += namesOf({variant.brushed, variant.rough});
   }
   return p;
 }
@@ -132,11 +144,15 @@ ProgramPlan lightingProgram(int bucket, const Quality& quality, const LightingVa
   p.vertex = "lighting/tile.vert";
   p.fragment = "lighting/tile.frag";
   p.defines = shadeDefines(quality, lighting);
+  p.defines.push_back(define("ANISOTROPIC", lighting.details.brushed));
+  p.defines.push_back(define("DETAIL", lighting.detail()));
+  p.defines.push_back(define("ROUGH_DIFFUSE", lighting.details.rough));
   p.defines.push_back(define("IN_PLACE", lighting.inPlace >= 0));
   p.defines.push_back(define("OCCLUSION", lighting.occlusion));
   p.defines.push_back(define("TILE_LIGHTS", bucket));
   p.defines.push_back(define("TONEMAP", std::max(lighting.inPlace, 0)));
   std::sort(p.defines.begin(), p.defines.end());
+  p.name += namesOf(lighting.details);
   if (lighting.orthographic) p.name += "+ortho";
   return p;
 }
@@ -158,7 +174,7 @@ ProgramPlan transparentProgram(const TransparentVariant& v, const Quality& quali
 }
 
 ProgramPlan peelProgram(const TransparentVariant& v) {
-  ProgramPlan p = geometryProgram(GeometryPass::Pick, v.geometry.withoutOcclusion(), false);
+  ProgramPlan p = geometryProgram(GeometryPass::Pick, v.geometry.shapeOnly(), false);
   p.name = "peel" + p.name.substr(std::string_view("pick").size());
   p.fragment = "gbuffer/peel.frag";
   return p;

@@ -10,14 +10,30 @@ struct GeometryVariant {
   bool occlusionMap = false;
   bool instanced = false;  ///< many at once: DrawData comes as vertex attributes
   bool packed = false;     ///< with occlusionMap: it rides in map B's third channel (gpu_scene), so that two lookups do
+  bool brushed = false;    ///< anisotropy: two widths along the tangents
+  bool rough = false;      ///< a diffuse roughness of its own
+  /// It writes the G-buffer's fourth target (shaders/shading/detail.h).
+  [[nodiscard]] bool detail() const { return brushed || rough; }
   [[nodiscard]] GeometryVariant withoutOcclusion() const {
     GeometryVariant v = *this;
     v.occlusionMap = v.packed = false;
     return v;
   }
+  /// Without what only shading and the G-buffer ask for.
+  [[nodiscard]] GeometryVariant shapeOnly() const {
+    GeometryVariant v = withoutOcclusion();
+    v.brushed = v.rough = false;
+    return v;
+  }
   friend auto operator<=>(const GeometryVariant&, const GeometryVariant&) = default;
 };
-GeometryVariant variantOf(const Material& material, const Mesh& mesh);
+/// What a frame draws of the details that surfaces can have.
+struct Details {
+  bool brushed = true, rough = true;
+};
+GeometryVariant variantOf(const Material& material, const Mesh& mesh, Details details);
+/// Of a frame with that plan.
+Details detailsOf(const FramePlan& plan);
 /// Occlusion that can ride in map B: the same uv mapping as B's, and nothing else is read from map C.
 bool packsOcclusion(const Material& material);
 /// Emission of any kind, unlit included.
@@ -44,7 +60,7 @@ struct TransparentVariant {
 };
 /// Whether a surface is drawn by the pass "transparent". `blend`, `glass`: whether those effects are on.
 bool drawnTransparent(const Material& material, bool blend, bool glass);
-TransparentVariant transparentVariantOf(const Material& material, const Mesh& mesh, bool occlusion);
+TransparentVariant transparentVariantOf(const Material& material, const Mesh& mesh, bool occlusion, Details details);
 
 /// The passes that draw geometry.
 enum class GeometryPass : std::uint8_t { GBuffer, Emissive, Pick, Forward };
@@ -65,6 +81,8 @@ struct LightingVariant {
   bool orthographic = false;
   int inPlace = -1;           ///< tone map (ToneMap's number) of what is written straight into the target; -1: radiance is written
   bool fog = false;           ///< lies before what is lit
+  Details details{false, false};  ///< of what the program's tiles may show
+  [[nodiscard]] bool detail() const { return details.brushed || details.rough; }
 };
 /// Fog is there and lit by the surroundings.
 bool fogAmbient(const Quality& quality, const LightingVariant& lighting);
@@ -79,6 +97,8 @@ bool needsCube(const Quality& quality, bool environment);
 inline constexpr int kTileBuckets[] = {0, 1, 2, 3, 4, 6, 8, 10};
 inline constexpr int kLoop = -1;       ///< the program that loops over long lists of point lights
 inline constexpr int kLoopSpots = -2;  ///< the program that loops over lists with spots among them
+/// Tiles that may show brushed or rough surfaces have programs of their own; what is unrolled is the empty list alone, for they are few.
+inline constexpr int kDetailBuckets[] = {0, kLoop, kLoopSpots};
 ProgramPlan lightingProgram(int bucket, const Quality& quality, const LightingVariant& lighting);
 /// A transparent surface's program, and the one that finds its depth when layers are peeled.
 ProgramPlan transparentProgram(const TransparentVariant& variant, const Quality& quality, const LightingVariant& lighting);

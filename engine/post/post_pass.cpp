@@ -76,6 +76,7 @@ Result<void> drawDebugView(FrameContext& c, GLuint framebuffer) {
   bindIfThere(c, "gbuffer_b", UNIT_GBUFFER_B);
   bindIfThere(c, "gbuffer_c", UNIT_GBUFFER_C);
   bindIfThere(c, "occlusion", UNIT_GBUFFER_C);
+  bindIfThere(c, "gbuffer_d", UNIT_GBUFFER_D);
   bindIfThere(c, "depth", UNIT_DEPTH);
   bindIfThere(c, "light", UNIT_LIGHT_BUFFER);
   return c.drawScreen(c.view.orthographic ? "debug_view+ortho" : "debug_view");

@@ -11,6 +11,7 @@ f64::Surface surfaceOf(const OracleSurface& s, const LobeEnergy* energy) {
   m.eta = s.eta;
   m.k = s.k;
   if (s.anisotropy > 0) f64::setTangent(m, s.tangent, s.anisotropy);
+  m.sigma = s.sigma;
   if (energy) {
     m.dfg = energy->at(m.nov);
     m.dfgMean = energy->mean();
@@ -23,7 +24,7 @@ std::unique_ptr<LobeEnergy> energyOf(const shading::Rungs& rungs, double alpha) 
 }  // namespace
 
 glm::dvec3 shade(const OracleSurface& surface, std::span<const OracleLight> lights, const shading::Rungs& rungs) {
-  const auto energy = energyOf(rungs, surface.alpha);
+  const auto energy = energyOf(rungs, surfaceOf(surface, nullptr).alpha);
   const f64::Surface m = surfaceOf(surface, energy.get());
   glm::dvec3 sum(0);
   for (const OracleLight& light : lights)
@@ -34,7 +35,7 @@ glm::dvec3 shade(const OracleSurface& surface, std::span<const OracleLight> ligh
 // The lobe takes nodes where its half vectors are, what is smooth takes nodes over the hemisphere. Quadrature is done in the frame of a normal +z and a view in the xz plane.
 DirectionalAlbedo directionalAlbedo(const OracleSurface& surface, const shading::Rungs& rungs, const Resolution& resolution) {
   const Rules rules(resolution);
-  const auto energy = energyOf(rungs, surface.alpha);
+  const auto energy = energyOf(rungs, surfaceOf(surface, nullptr).alpha);
   const double nov = std::clamp(glm::dot(surface.n, surface.v), 1e-9, 1.0);
   OracleSurface local = surface;
   local.n = {0, 0, 1};

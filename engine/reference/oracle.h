@@ -17,6 +17,7 @@ struct OracleSurface {
   glm::dvec3 eta{0}, k{0};          ///< named conductors
   glm::dvec3 tangent{0};            ///< with anisotropy
   double anisotropy = 0;
+  double sigma = 0;                 ///< of diffuse, radians; 0: by the rung
 };
 struct OracleLight {
   glm::dvec3 toLight{0, 0, 1};      ///< unit

@@ -162,6 +162,7 @@ Result<void> Renderer::Impl::renderView(SceneState& state, const Scene& scene, c
     const float black[4] = {0, 0, 0, 1};
     device->gl.ClearNamedFramebufferfv(*framebuffer, GL_COLOR, 0, black);
   }
+  stats.lightsInView += int(view.lights.directional.size());
   PassCall call{c, *modules, target, request};
   for (const PassPlan& pass : plan.passes)
     if (auto done = runPass(pass, call, *timers); !done) return done;

@@ -36,6 +36,7 @@ MaterialConverter::Converted MaterialConverter::convert(int index, bool vertexAl
        vertexAlpha);
   emission(in, out);
   anisotropy(in, out);
+  if (!out.unlit) out.diffuseRoughness = checked(in.diffuseRoughness, 0, 1, 0, "diffuseRoughness");
   glass(in, out);
   const Slot normal = normalSlot(in, out);
   std::optional<UvMapping> tangents;
@@ -235,7 +236,6 @@ void MaterialConverter::anisotropy(const asset::Material& in, Material& out) {
   out.anisotropy = out.unlit ? 0 : checked(in.anisotropy, 0, 1, 0, "anisotropyStrength");
   if (out.anisotropy == 0) return;
   out.anisotropyRotation = checked(in.anisotropyRotation, -kMost, kMost, 0, "anisotropyRotation");
-  warn("anisotropy is drawn by the forward reference path only: the deferred path draws it isotropic");
 }
 
 const MaterialConverter::Shared& MaterialConverter::shared(std::string key, std::string name, MapKind kind,

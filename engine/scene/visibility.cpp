@@ -153,6 +153,20 @@ ViewFrame narrowed(const ViewFrame& frame, glm::ivec2 pixel) {
   return f;
 }
 
+namespace {
+
+struct WorldBox {
+  glm::dvec3 center, extent;
+};
+/// Around placed bounds, along the world's axes, relative to the eye.
+WorldBox boxAt(const Bounds& bounds, const glm::dmat4& placement, glm::dvec3 eye) {
+  const glm::dvec3 half = (glm::dvec3(bounds.max) - glm::dvec3(bounds.min)) * 0.5, middle = (glm::dvec3(bounds.max) + glm::dvec3(bounds.min)) * 0.5;
+  const glm::dmat3 m(placement);
+  return {m * middle + glm::dvec3(placement[3]) - eye, glm::abs(m[0]) * half.x + glm::abs(m[1]) * half.y + glm::abs(m[2]) * half.z};
+}
+
+}  // namespace
+
 bool setPlacement(VisibleInstance& v, const glm::dmat4& placement, glm::dvec3 eye) {
   glm::dmat4 world = placement;
   world[3] -= glm::dvec4(eye, 0);
@@ -174,7 +188,11 @@ bool setPlacement(VisibleInstance& v, const glm::dmat4& placement, glm::dvec3 ey
 
 void makeRigid(const Scene& scene, const Derived& derived, const ViewFrame& frame, VisibleInstance& v) {
   v.pose = nullptr;
-  setPlacement(v, scene.nodes.has(v.instance->node) ? derived.world(v.instance->node) : glm::dmat4(1), frame.eye);
+  const glm::dmat4 placement = scene.nodes.has(v.instance->node) ? derived.world(v.instance->node) : glm::dmat4(1);
+  const WorldBox box = boxAt(derived.bounds(v.instance->mesh), placement, frame.eye);
+  v.center = box.center;
+  v.extent = box.extent;
+  setPlacement(v, placement, frame.eye);
 }
 
 void findVisible(const Scene& scene, const Derived& derived, const ViewFrame& frame, std::vector<VisibleInstance>& out, Reach reach) {
@@ -190,17 +208,16 @@ void findVisible(const Scene& scene, const Derived& derived, const ViewFrame& fr
     glm::dmat4 world = placement;
     world[3] -= glm::dvec4(frame.eye, 0);
     if (!finite(world)) return;
-    const glm::dvec3 half = (glm::dvec3(bounds.max) - glm::dvec3(bounds.min)) * 0.5, middle = (glm::dvec3(bounds.max) + glm::dvec3(bounds.min)) * 0.5;
-    const glm::dmat3 m(world);
-    const glm::dvec3 center = m * middle + glm::dvec3(world[3]);
-    const glm::dvec3 extent = glm::abs(m[0]) * half.x + glm::abs(m[1]) * half.y + glm::abs(m[2]) * half.z;
-    if (reach == Reach::InView && !frustum.meetsBox(center, extent)) return;
+    const WorldBox box = boxAt(bounds, placement, frame.eye);
+    if (reach == Reach::InView && !frustum.meetsBox(box.center, box.extent)) return;
     VisibleInstance v;
     v.id = id;
     v.instance = &instance;
     v.mesh = mesh;
     v.pose = pose;
-    v.distance = float(glm::length(center));
+    v.distance = float(glm::length(box.center));
+    v.center = box.center;
+    v.extent = box.extent;
     setPlacement(v, placement, frame.eye);
     out.push_back(v);
   });

@@ -86,6 +86,7 @@ struct VisibleInstance {
   glm::vec3 normal[3];  ///< rows of the cofactor matrix, times the sign of the determinant
   bool flipped = false;  ///< the transform mirrors
   float distance = 0;   ///< from the eye to the centre of the bounds, metres
+  glm::vec3 center{0}, extent{0};  ///< box around it along the world's axes, camera-relative: middle and half extents
 };
 /// Sets model, normal and flipped from where the instance's vertices stand in the world; false when that is not finite.
 bool setPlacement(VisibleInstance& instance, const glm::dmat4& world, glm::dvec3 eye);

@@ -161,7 +161,7 @@ int nonfinite() {
   for (const double u : {0.0, 1.0})
     for (int family = 0; family <= LOBE_FAMILY_PHONG; ++family) count += !std::isfinite(T::sampleLobe(u, 0.3, 0.1, family).x);
   for (const double big : {1e300, -1e300}) {
-    const double values[] = {T::lobeExp2(big, 0, 10), T::lobePow(0, big), T::lobeStable(1, big), T::alphaFromPower(big), T::D_beckmannAnisotropic(big, big, 0.5, 1, 1)};
+    const double values[] = {T::lobeExp2(big, 0, 10), T::lobePow(0, big), T::lobeStable(1, big), T::alphaFromPower(big), T::alphaAlong(big, big, 1, 1)};
     for (const double v : values) count += !std::isfinite(v);
   }
   for (const double x : {0.0, -1.0, 1e200}) {

@@ -54,7 +54,7 @@ Result<std::vector<glm::vec4>> ShaderCases::evaluate(std::span<const ShaderCase>
 }
 
 std::string glslOf(const shading::Rungs& k) {
-  return fmt::format("Rungs({}, {}, {}, {}, {}, {}, {}, {}, {})", k.specular, k.distribution, k.geometry, k.normalization, k.lobe, k.fresnel, k.diffuse, k.compensation, k.anisotropic);
+  return fmt::format("Rungs({}, {}, {}, {}, {}, {}, {}, {}, {}, {})", k.specular, k.distribution, k.geometry, k.normalization, k.lobe, k.fresnel, k.diffuse, k.compensation, k.anisotropic, k.roughDiffuse);
 }
 
 }  // namespace burnish::stability

@@ -154,7 +154,7 @@ Result<void> TransparentPass::drawRest(FrameContext& c, const TransparentGroup& 
 }
 
 Result<const TransparentPass::Programs*> TransparentPass::programsOf(FrameContext& c, const Material& material, const Mesh& mesh) {
-  const plan::TransparentVariant variant = plan::transparentVariantOf(material, mesh, c.quality.occlusion != Occlusion::None);
+  const plan::TransparentVariant variant = plan::transparentVariantOf(material, mesh, c.quality.occlusion != Occlusion::None, plan::detailsOf(c.plan));
   const auto [at, isNew] = programs_.try_emplace(variant);
   if (!isNew) return &at->second;
   const plan::LightingVariant lighting{int(c.lights.directional.size()), c.plan.on("environment_lighting"), c.plan.on("baked_occlusion"), c.view.orthographic, -1, c.plan.on("fog")};
@@ -175,7 +175,7 @@ Result<void> TransparentPass::drawParts(FrameContext& c, std::span<const Transpa
     if (!programs) return fail(programs.error());
     const gl::Program* program = stage == Stage::Peel ? (*programs)->peel : (*programs)->shade;
     if (!program) return unplanned("peel");
-    const bool general = plan::variantOf(*material, *v.mesh).general;
+    const bool general = plan::variantOf(*material, *v.mesh, {}).general;
     if (!gpu_scene::bindInstance(c, part.instance, general, bound)) continue;
     program->use();
     setFaces(gl, part.faces, material->twoSided, v.flipped);

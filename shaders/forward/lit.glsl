@@ -1,6 +1,5 @@
 // What the forward programs share: the surface at this fragment and its light from every light of the scene.
 // Definitions: DIRECTIONAL (count), FOG, ORTHOGRAPHIC, those of gbuffer/fetch.glsl and of lighting/shade.glsl.
-#define ANISOTROPIC 1
 #define ENVIRONMENT_UNIT UNIT_FORWARD_ENVIRONMENT
 #include "shading/bridge.h"
 #include "shading/all.h"
@@ -27,9 +26,12 @@ Surface surfaceHere(Fetched f, vec3 toEye) {
   Surface m = makeSurface(n, toEye, vec3(unitClamp(f.albedo.r), unitClamp(f.albedo.g), unitClamp(f.albedo.b)), unitClamp(f.code), alphaFromRoughness(f.roughness));
   m.eta = material.conductorEta.rgb;
   m.k = material.conductorK.rgb;
-  float c = cos(material.conductorK.w), s = sin(material.conductorK.w);
-  vec3 bitangent = cross(worldNormal, worldTangent.xyz) * worldTangent.w;
-  if (material.conductorEta.w > 0.0) setTangent(m, worldTangent.xyz * c + bitangent * s, material.conductorEta.w);
+#if ANISOTROPIC
+  setTangent(m, brushedTangent(), material.conductorEta.w);
+#endif
+#if ROUGH_DIFFUSE
+  m.sigma = material.attenuation.w;
+#endif
   return m;
 }
 

@@ -1,6 +1,6 @@
 // What the maps and factors say of the surface at this fragment: the G-buffer writes it, the forward path shades it.
 // Definitions: GENERAL, ALPHA_TEST, OCCLUSION (0 none, 1 from map C, 2 none on this material, 3 from the third channel of map B, where gpu_scene packs it: the normal's z
-// follows from x and y), COVERAGE (1: blended surfaces cover the share of a pixel that map C and the vertex colours say; 0 where it is not defined).
+// follows from x and y), ANISOTROPIC, COVERAGE (1: blended surfaces cover the share of a pixel that map C and the vertex colours say; 0 where it is not defined).
 #ifndef COVERAGE
 #define COVERAGE 0
 #endif
@@ -33,6 +33,14 @@ vec3 shadingNormal(vec3 mapped) {
   m = m2 > 1e-12 ? m : worldNormal;
   return gl_FrontFacing ? m : -m;
 }
+
+#if ANISOTROPIC
+// The direction that the surface is brushed along; zero where it has no tangent.
+vec3 brushedTangent() {
+  vec3 bitangent = cross(worldNormal, worldTangent.xyz) * worldTangent.w;
+  return worldTangent.xyz * cos(material.conductorK.w) + bitangent * sin(material.conductorK.w);
+}
+#endif
 
 Fetched fetchMaterial() {
   Fetched f;

@@ -1,11 +1,15 @@
-// Fills the G-buffer: RT0 albedo (square root) + substance code, RT1 octahedral normal 2x12 + log-alpha code, RT2 baked ambient occlusion.
-// Definitions: GENERAL, ALPHA_TEST, OCCLUSION (gbuffer/fetch.glsl; 0: no third target).
+// Fills the G-buffer: RT0 albedo (square root) + substance code, RT1 octahedral normal 2x12 + log-alpha code, then baked ambient occlusion and shading/detail.h's four bytes, if there.
+// Definitions: GENERAL, ALPHA_TEST, OCCLUSION (gbuffer/fetch.glsl; 0: no target for it), ANISOTROPIC, ROUGH_DIFFUSE (1: the surface's; either writes the target of details).
 #include "shading/bridge.h"
 #include "shading/constants.h"
 #include "shading/rungs.h"
 #include "shading/roughness.h"
 #include "shading/normals.h"
 #include "shading/albedo.h"
+#if ANISOTROPIC || ROUGH_DIFFUSE
+#include "shading/anisotropy.h"
+#include "shading/detail.h"
+#endif
 #include "interface/layout.h"
 #include "gbuffer/fetch.glsl"
 
@@ -14,6 +18,9 @@ layout(location = 1) out vec4 outNormalRoughness;
 #if OCCLUSION
 layout(location = 2) out float outOcclusion;
 #endif
+#if ANISOTROPIC || ROUGH_DIFFUSE
+layout(location = OCCLUSION == 0 ? 2 : 3) out vec4 outDetail;
+#endif
 
 void main() {
   Fetched f = fetchMaterial();
@@ -21,5 +28,11 @@ void main() {
   outNormalRoughness = vec4(packNormal(f.normal), encodeAlpha(storedAlpha(alphaFromRoughness(f.roughness))));
 #if OCCLUSION
   outOcclusion = f.occlusion;
+#endif
+#if ANISOTROPIC
+  float alphaX = alphaOfStrength(alphaFromRoughness(f.roughness), material.conductorEta.w);
+  outDetail = packDetail(unpackNormal(outNormalRoughness.rgb), brushedTangent(), alphaX, ROUGH_DIFFUSE == 1 ? material.attenuation.w : 0.0);
+#elif ROUGH_DIFFUSE
+  outDetail = vec4(0.0, 0.0, 0.0, material.attenuation.w);
 #endif
 }

@@ -24,6 +24,7 @@
 #define UNIT_GBUFFER_B 1
 #define UNIT_DEPTH 2
 #define UNIT_GBUFFER_C 3
+#define UNIT_GBUFFER_D 9  // no exposure where it is read
 #define UNIT_ENVIRONMENT 4
 #define UNIT_DFG 5
 #define UNIT_LIGHTS 6
@@ -51,7 +52,6 @@
 #include "interface/limits.h"
 
 struct FrameData {
-  mat4 viewProjection;   // camera-relative world to clip, depth reversed in [0,1]
   vec4 rayOrigin;        // perspective: direction through pixel (0,0), scaled so that its depth is 1; orthographic: origin on the eye's plane. xyz camera-relative world
   vec4 rayX;             // added per pixel to the right
   vec4 rayY;             // added per pixel upward
@@ -80,9 +80,9 @@ struct MaterialData {
   vec4 emission;    // rgb pre-exposure not applied, cd/m²; w alpha cutoff
   vec4 more;        // x metalness factor (metal-rough kept apart), y 1 when unlit, z 1 when vertex colour counts, w 1 when metal-rough is kept apart, 2 when there is no map B beside it
   vec4 uv[10];      // two rows for each of A, B, C, metal-rough, emissive: u' = dot(row.xyz, (u, v, 1)); row.w of the first: uv set
-  vec4 conductorEta;  // rgb index of a named conductor, 0 elsewhere; w anisotropy (forward path)
+  vec4 conductorEta;  // rgb index of a named conductor, 0 elsewhere; w anisotropy
   vec4 conductorK;    // rgb its extinction; w anisotropy's rotation, radians
   vec4 glass;         // x transmission, y thickness (m, of the mesh), z index of refraction (0: from F0), w 1 when blended
-  vec4 attenuation;   // rgb absorption inside, 1/m
+  vec4 attenuation;   // rgb absorption inside, 1/m; w sigma of rough diffuse, radians
 };
 #endif

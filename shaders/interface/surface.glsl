@@ -1,11 +1,14 @@
 // From the G-buffer to a Surface: position, view vector and material at the current fragment.
-// Definitions: ORTHOGRAPHIC, OCCLUSION.
+// Definitions: ORTHOGRAPHIC, OCCLUSION, DETAIL (1: there is a target for brushed and rough surfaces).
 layout(std140, binding = BINDING_FRAME) uniform Frame { FrameData frame; };
 layout(binding = UNIT_GBUFFER_A) uniform sampler2D gbufferA;
 layout(binding = UNIT_GBUFFER_B) uniform sampler2D gbufferB;
 layout(binding = UNIT_DEPTH) uniform sampler2D gbufferDepth;
 #if OCCLUSION
 layout(binding = UNIT_GBUFFER_C) uniform sampler2D gbufferC;
+#endif
+#if DETAIL
+layout(binding = UNIT_GBUFFER_D) uniform sampler2D gbufferD;
 #endif
 
 // Camera-relative world position (m) of a fragment whose depth is z. origin, x, y: FrameData's rays with depthParams.x and .y in the first two's w.
@@ -21,3 +24,13 @@ vec3 positionAt(vec2 pixel, float z, vec4 origin, vec4 x, vec4 y, out vec3 toEye
 }
 
 Surface surfaceAt(vec4 a, vec4 b, vec3 toEye) { return makeSurface(unpackNormal(b.rgb), toEye, decodeAlbedo(a.rgb), a.a, decodeAlpha(b.a)); }
+
+#if DETAIL
+Surface surfaceAt(vec4 a, vec4 b, vec4 d, vec3 toEye) {
+  vec3 n = unpackNormal(b.rgb);
+  Surface m = makeSurface(n, toEye, decodeAlbedo(a.rgb), a.a, decodeAlpha(b.a));
+  setWidth(m, unpackTangent(n, d), decodeAlpha(d.b));
+  m.sigma = d.a;
+  return m;
+}
+#endif

@@ -1,9 +1,9 @@
 // Shading one surface with the rungs in force: what the deferred and the forward path share. The includer has included shading/bridge.h, shading/all.h and interface/layout.h and
 // declared `frame`; it defines ambientAt(normal) and lastLevel() before this file where ENVIRONMENT is 1.
-// Definitions: RUNG_* (plan/variants.cpp), ANISOTROPIC, DFG (1: the lobe's table is bound), DFG_WIDTH, DFG_HEIGHT, ENVIRONMENT (1: lit by the surroundings), OCCLUSION,
+// Definitions: RUNG_* (plan/variants.cpp), ANISOTROPIC (1: surfaces may have two widths), ROUGH_DIFFUSE (1: and a diffuse roughness of their own), DFG (1: the lobe's table is bound), DFG_WIDTH, DFG_HEIGHT, ENVIRONMENT (1: lit by the surroundings), OCCLUSION,
 // ENVIRONMENT_UNIT.
 
-const Rungs kRungs = Rungs(RUNG_SPECULAR, RUNG_DISTRIBUTION, RUNG_GEOMETRY, RUNG_NORMALIZATION, RUNG_LOBE, RUNG_FRESNEL, RUNG_DIFFUSE, RUNG_COMPENSATION, ANISOTROPIC);
+const Rungs kRungs = Rungs(RUNG_SPECULAR, RUNG_DISTRIBUTION, RUNG_GEOMETRY, RUNG_NORMALIZATION, RUNG_LOBE, RUNG_FRESNEL, RUNG_DIFFUSE, RUNG_COMPENSATION, ANISOTROPIC, ROUGH_DIFFUSE);
 
 #if DFG
 layout(binding = UNIT_DFG) uniform sampler2D dfgTable;
@@ -64,7 +64,7 @@ vec3 sampledReflection(Surface m) {
   vec3 sum = vec3(0.0), t, b;
   int family = lobeFamily(kRungs);
   bool phong = family == LOBE_FAMILY_PHONG;
-  bool twoWidths = ANISOTROPIC == 1 && m.alphaX != m.alphaY && (RUNG_SPECULAR == SPECULAR_WARD_ANISOTROPIC || RUNG_SPECULAR == SPECULAR_WARD_BOUNDED);
+  bool twoWidths = ANISOTROPIC == 1 && m.alphaX != m.alphaY && hasTwoWidths(kRungs);
   vec3 axis = phong ? m.n * (2.0 * m.nov) - m.v : m.n;
   basisFrom(axis, t, b);
   if (twoWidths) {
@@ -73,18 +73,40 @@ vec3 sampledReflection(Surface m) {
   }
   for (int i = 0; i < SAMPLES; ++i) {
     float u = (float(i) + 0.5) / float(SAMPLES), w = radicalInverse(i);
-    vec3 h = twoWidths ? sampleAnisotropic(u, w, m.alphaX, m.alphaY) : sampleLobe(u, w, m.alpha, family);
+    vec3 h = twoWidths ? sampleTwoWidths(u, w, m.alphaX, m.alphaY, family) : sampleLobe(u, w, m.alpha, family);
     vec3 world = t * h.x + b * h.y + axis * h.z;
     float voh = dot(m.v, world), sin2 = h.x * h.x + h.y * h.y;
     vec3 l = phong ? world : world * (2.0 * voh) - m.v;
     if (dot(m.n, l) <= 0.0 || voh <= 0.0 && !phong) continue;
-    float density = twoWidths ? D_beckmannAnisotropic(h.x, h.y, 1.0 - sin2, m.alphaX, m.alphaY) * h.z : lobeDensity(sin2, m.alpha, family);
+    float density = twoWidths ? twoWidthsDensity(h, m.alphaX, m.alphaY, family) : lobeDensity(sin2, m.alpha, family);
     if (!phong) density /= 4.0 * max(voh, BURNISH_GUARD_NOV);
     Angles a = anglesOf(m, l);
     float level = environmentLevel(min(sqrt(sqrt(1.0 / (4.0 * BURNISH_PI * float(SAMPLES) * max(density, BURNISH_GUARD_VISIBILITY)))), 1.0), lastLevel());
     sum += textureLod(environmentCube, l, level).rgb * fresnelRung(m.f0, m.eta, m.k, a.loh, RUNG_FRESNEL) * (specularRung(m, a, kRungs) / max(density, BURNISH_GUARD_VISIBILITY));
   }
   return sum * (frame.background.w / float(SAMPLES));
+}
+#endif
+
+#if RUNG_ENVIRONMENT_SPECULAR != ENVIRONMENT_SPECULAR_NONE && RUNG_ENVIRONMENT_SPECULAR != ENVIRONMENT_SPECULAR_SAMPLED
+vec3 prefiltered(vec3 r, float alpha) { return textureLod(environmentCube, r, environmentLevel(sqrt(alpha), lastLevel())).rgb; }
+
+// The prefiltered surroundings where the surface mirrors them. A lobe with two widths is the round one of the narrow width, spread along the tangent.
+vec3 mirrored(Surface m) {
+#if ANISOTROPIC
+  if (hasTwoWidths(kRungs)) {
+    vec3 sum = vec3(0.0);
+    float total = 0.0;
+    for (int i = 0; i < BRUSHED_TAPS; ++i) {
+      vec3 l = brushedDirection(m, brushedNode(i));
+      float weight = notNegative(dot(m.n, l));
+      sum += prefiltered(l, brushedAlpha(m)) * weight;
+      total += weight;
+    }
+    return sum / max(total, BURNISH_GUARD_NOV);
+  }
+#endif
+  return prefiltered(m.n * (2.0 * m.nov) - m.v, m.alpha);
 }
 #endif
 
@@ -96,13 +118,12 @@ vec3 surroundings(Surface m, float occlusion) {
 #elif RUNG_ENVIRONMENT_SPECULAR == ENVIRONMENT_SPECULAR_SAMPLED
   vec3 specular = sampledReflection(m);
 #else
-  vec3 r = m.n * (2.0 * m.nov) - m.v;
-  vec3 specular = textureLod(environmentCube, r, environmentLevel(sqrt(m.alpha), lastLevel())).rgb * frame.background.w * environmentReflectance(m, RUNG_ENVIRONMENT_SPECULAR, RUNG_FRESNEL);
+  vec3 specular = mirrored(m) * frame.background.w * environmentReflectance(m, RUNG_ENVIRONMENT_SPECULAR, RUNG_FRESNEL);
 #endif
 #if OCCLUSION
   specular *= specularOcclusion(max(m.nov, BURNISH_GUARD_NOV), occlusion, m.alpha, RUNG_SPECULAR_OCCLUSION);
   ambient *= occlusion;
 #endif
-  return specular + ambient * (m.diffuse * ambientShare(m, RUNG_ENVIRONMENT_SPECULAR, kRungs) + environmentScattered(m, kRungs));
+  return specular + ambient * (ambientAlbedo(m, kRungs) * ambientShare(m, RUNG_ENVIRONMENT_SPECULAR, kRungs) + environmentScattered(m, kRungs));
 }
 #endif

@@ -1,6 +1,6 @@
 // Shades the tiles: directional lights, the tile's point and spot lights, and the surroundings. Writes pre-exposed radiance.
-// Definitions: FOG (1: it lies before the surface: interface/fog.glsl), TILE_LIGHTS, DIRECTIONAL (count), ORTHOGRAPHIC, IN_PLACE (1: writes what the display takes, not radiance; TONEMAP) and those of lighting/shade.glsl.
-#define ANISOTROPIC 0
+// Definitions: FOG (1: it lies before the surface: interface/fog.glsl), TILE_LIGHTS, DIRECTIONAL (count), ORTHOGRAPHIC, DETAIL (1: the tile may show brushed or rough surfaces, which the target
+// for them describes), IN_PLACE (1: writes what the display takes, not radiance; TONEMAP) and those of lighting/shade.glsl.
 #define ENVIRONMENT_UNIT UNIT_ENVIRONMENT
 #include "shading/bridge.h"
 #include "shading/all.h"
@@ -48,7 +48,11 @@ void main() {
 #endif
   vec3 toEye;
   vec3 p = positionAt(gl_FragCoord.xy, max(z, BURNISH_GUARD_LENGTH), ray[0], ray[1], ray[2], toEye);
+#if DETAIL
+  Surface m = surfaceAt(a, b, texelFetch(gbufferD, q, 0), toEye);
+#else
   Surface m = surfaceAt(a, b, toEye);
+#endif
   float row = findEnergy(m);
   vec3 sum = vec3(0.0);
   for (int i = 0; i < DIRECTIONAL; ++i) sum += shadeLight(m, frame.directional[2 * i].xyz, row, occlusion) * frame.directional[2 * i + 1].rgb;

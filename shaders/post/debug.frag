@@ -1,11 +1,13 @@
-// Debug views of the G-buffer. Definitions: VIEW (1 albedo, 2 substance, 3 normal, 4 roughness, 5 depth, 6 position, 7 occlusion, 9 nonfinite), ORTHOGRAPHIC, OCCLUSION, GEOMETRY (0: nothing was drawn).
+// Debug views of the G-buffer. Definitions: VIEW (1 albedo, 2 substance, 3 normal, 4 roughness, 5 depth, 6 position, 7 occlusion, 9 nonfinite, 10 anisotropy, 11 diffuse roughness), ORTHOGRAPHIC, DETAIL, OCCLUSION, GEOMETRY (0: nothing was drawn).
 #include "shading/bridge.h"
 #include "shading/constants.h"
 #include "shading/roughness.h"
 #include "shading/normals.h"
 #include "shading/albedo.h"
 #include "shading/substance.h"
+#include "shading/anisotropy.h"
 #include "shading/surface.h"
+#include "shading/detail.h"
 #include "shading/tonemap.h"
 #include "interface/layout.h"
 #include "interface/surface.glsl"
@@ -44,6 +46,13 @@ void main() {
 #else
     c = vec3(1.0);
 #endif
+#elif VIEW == 10 && DETAIL
+    // The direction that it is brushed along, as a line has it (no sign), as bright as the lobe is long; black: a round one.
+    Surface m = surfaceAt(a, b, texelFetch(gbufferD, q, 0), vec3(0.0, 0.0, 1.0));
+    vec3 along = abs(unpackTangent(unpackNormal(b.rgb), texelFetch(gbufferD, q, 0))) * sqrt(1.0 - m.alphaY / m.alphaX);
+    c = vec3(linearFromSrgb(along.x), linearFromSrgb(along.y), linearFromSrgb(along.z));
+#elif VIEW == 11 && DETAIL
+    c = vec3(linearFromSrgb(texelFetch(gbufferD, q, 0).a));
 #endif
   }
 #if VIEW == 9

@@ -2,6 +2,7 @@
 #include "shading/lobes.h"
 #include "shading/normals.h"
 #include "shading/albedo.h"
+#include "shading/detail.h"
 #include "shading/diffuse.h"
 #include "shading/compensation.h"
 #include "shading/light.h"

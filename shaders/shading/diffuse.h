@@ -58,6 +58,12 @@ FN real fujiiAlbedo(real cosine, real rough) {
   return R(1.0) + rough / BURNISH_PI * g;
 }
 
+// The model's A, and the mean of A E over the hemisphere for albedo 1.
+FN real fujiiScale(real rough) { return R(1.0) / (R(1.0) + (R(0.5) - R(2.0) / (R(3.0) * BURNISH_PI)) * rough); }
+FN real fujiiMean(real rough) { return fujiiScale(rough) * (R(1.0) + (R(2.0) / R(3.0) - R(28.0) / (R(15.0) * BURNISH_PI)) * rough); }
+// What is given back of the light that is lost once, for albedo rho: rho² mean/(1 - rho (1 - mean)).
+FN real fujiiAgain(real rho, real mean) { return rho * rho * mean / max(R(1.0) - rho * (R(1.0) - mean), BURNISH_GUARD_LOSS); }
+
 // Energy-preserving Oren-Nayar (the same paper, eq. for f_EON): single scattering in Fujii's form and what it loses given back as a reciprocal product. One channel; returns f.
 FN real Fd_orenNayarEnergy(real nol, real nov, real lov, real sigma, real rho) {
   real l = unitClamp(nol);
@@ -65,11 +71,18 @@ FN real Fd_orenNayarEnergy(real nol, real nov, real lov, real sigma, real rho) {
   real rough = fujiiRoughness(sigma);
   real s = azimuthTerm(l, v, lov);
   real t = s > R(0.0) ? s / max(max(l, v), BURNISH_GUARD_NOV) : s;  // model: the larger cosine
-  real a = R(1.0) / (R(1.0) + (R(0.5) - R(2.0) / (R(3.0) * BURNISH_PI)) * rough);
+  real a = fujiiScale(rough);
   real albedo = unitClamp(rho);
   real single = albedo * a * (R(1.0) + rough * t);
-  real mean = a * (R(1.0) + (R(2.0) / R(3.0) - R(28.0) / (R(15.0) * BURNISH_PI)) * rough);
+  real mean = fujiiMean(rough);
   real lost = notNegative(R(1.0) - a * fujiiAlbedo(l, rough)) * notNegative(R(1.0) - a * fujiiAlbedo(v, rough)) / max(R(1.0) - mean, BURNISH_GUARD_LOSS);
-  real again = albedo * albedo * mean / max(R(1.0) - albedo * (R(1.0) - mean), BURNISH_GUARD_LOSS) * lost;
-  return notNegative(single + again) / BURNISH_PI;
+  return notNegative(single + fujiiAgain(albedo, mean) * lost) / BURNISH_PI;
+}
+
+// Its directional albedo: what it reflects of even surroundings. rho where sigma is 0.
+FN real orenNayarEnergyAlbedo(real nov, real sigma, real rho) {
+  real rough = fujiiRoughness(sigma);
+  real albedo = unitClamp(rho);
+  real once = fujiiScale(rough) * fujiiAlbedo(nov, rough);
+  return unitClamp(albedo * once + fujiiAgain(albedo, fujiiMean(rough)) * notNegative(R(1.0) - once));
 }

@@ -22,16 +22,6 @@ FN real D_ggx(real sin2, real alpha) {
   return a2 / (BURNISH_PI * d * d);
 }
 
-// Beckmann's with two widths: h's components along tangent, bitangent and normal. Walter's equation with tan² split along the axes (Ward 1992, eq. 5a).
-FN real D_beckmannAnisotropic(real hx, real hy, real cos2, real alphaX, real alphaY) {
-  real ax = max(unitClamp(alphaX), BURNISH_GUARD_ALPHA);
-  real ay = max(unitClamp(alphaY), BURNISH_GUARD_ALPHA);
-  real c2 = max(unitClamp(cos2), BURNISH_GUARD_COS2);
-  real x = heldLarge(hx) / ax;
-  real y = heldLarge(hy) / ay;
-  return exp2(R(-1.4426950408889634) * (x * x + y * y) / c2) / (BURNISH_PI * ax * ay * c2 * c2);
-}
-
 // Void geometry takes f = F N(p) (n·h)^p. N is exact when the directional albedo at normal incidence is 1:
 // (p + 2)(p + 4) / (8 pi (2^(-p/2) + p)). Giesen 2009, "Phong and Blinn-Phong normalization factors".
 // As p + 4 over p + 2^(-p/2), so that no product overflows.

@@ -26,6 +26,23 @@ FN vec3 environmentReflectance(Surface m, int rung, int fresnel) {
   return vec3(environmentReflectance(m, m.f0.x, rung, fresnel), environmentReflectance(m, m.f0.y, rung, fresnel), environmentReflectance(m, m.f0.z, rung, fresnel));
 }
 
+// A lobe with two widths convolves the round one of the narrow width with a Gaussian of slopes along the tangent: alphaX² = alphaY² + spread². The Gaussian is sampled at the middles of
+// BRUSHED_TAPS equal shares, x = erf⁻¹((2 i + 1)/BRUSHED_TAPS - 1) (after Revie 2012, "Implementing Fur Using Deferred Shading", which bends one normal along the tangent).
+#define BRUSHED_TAPS 8
+FN real brushedNode(int i) {
+  int k = i < 4 ? 3 - i : i - 4;
+  real x = k == 0 ? R(0.11124) : k == 1 ? R(0.34562) : k == 2 ? R(0.62731) : R(1.08479);
+  return i < 4 ? -x : x;
+}
+FN real brushedSpread2(Surface m) { return notNegative(m.alphaX * m.alphaX - m.alphaY * m.alphaY); }
+// The mirrored direction about the normal that is tilted by the node's slope.
+FN vec3 brushedDirection(Surface m, real node) {
+  vec3 h = normalize(m.n + m.t * (node * sqrt(brushedSpread2(m))));
+  return h * (R(2.0) * dot(h, m.v)) - m.v;
+}
+// Width of what is looked up there: the narrow one, and as much of the spread as closes the gaps between taps.
+FN real brushedAlpha(Surface m) { return sqrt(m.alphaY * m.alphaY + R(0.03) * brushedSpread2(m)); }
+
 // What multiple scattering adds to it: lit by the ambient light, since it is as wide as diffuse.
 FN vec3 environmentScattered(Surface m, Rungs k) {
   if (k.compensation == COMPENSATION_NONE) return vec3(R(0.0));
@@ -39,6 +56,12 @@ FN real ambientShare(Surface m, int rung, Rungs k) {
   if (k.diffuse == DIFFUSE_COUPLED_FIT) return R(1.0) - fittedAlbedo(m.dielectric, fresnelDielectricPart(m.dielectric, m.nov, k.fresnel), m.alpha);
   if (k.diffuse == DIFFUSE_COUPLED || k.diffuse == DIFFUSE_OREN_NAYAR_ENERGY) return R(1.0) - specularAlbedo(m.dielectric, m.dfg, m.dfgMean, k);
   return unitClamp(R(1.0) - environmentReflectance(m, m.dielectric, rung, k.fresnel));
+}
+
+// What diffuse has to reflect ambient light with: its albedo, or that of a rough surface toward the eye.
+FN vec3 ambientAlbedo(Surface m, Rungs k) {
+  if (k.roughDiffuse == 0) return m.diffuse;
+  return vec3(orenNayarEnergyAlbedo(m.nov, m.sigma, m.diffuse.x), orenNayarEnergyAlbedo(m.nov, m.sigma, m.diffuse.y), orenNayarEnergyAlbedo(m.nov, m.sigma, m.diffuse.z));
 }
 
 // Specular occlusion from ambient occlusion, by the rung: none, the ambient occlusion itself, or Lagarde and de Rousiers 2014, "Moving Frostbite to Physically Based

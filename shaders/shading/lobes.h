@@ -7,6 +7,7 @@
 #include "shading/lobe.h"
 #include "shading/distribution.h"
 #include "shading/geometry.h"
+#include "shading/anisotropy.h"
 #include "shading/surface.h"
 #include "shading/specular.h"
 #include "shading/dfg.h"

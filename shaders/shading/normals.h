@@ -2,6 +2,15 @@
 
 FN real signNotZero(real x) { return x >= R(0.0) ? R(1.0) : R(-1.0); }
 
+// An orthonormal frame around a unit vector. Duff et al. 2017, "Building an Orthonormal Basis, Revisited", listing 3.
+FN void basisFrom(vec3 n, OUT(vec3) t, OUT(vec3) b) {
+  real s = signNotZero(n.z);
+  real a = R(-1.0) / (s + n.z);
+  real c = n.x * n.y * a;
+  t = vec3(R(1.0) + s * n.x * n.x * a, s * c, -s * n.x);
+  b = vec3(c, s + n.y * n.y * a, -n.y);
+}
+
 // Vector of any length to the square [-1,1]². A zero vector gives (0, 0), which decodes to +z.
 FN vec2 octahedralEncode(vec3 n) {
   real s = abs(n.x) + abs(n.y) + abs(n.z);

@@ -86,11 +86,17 @@ struct Rungs {
   int fresnel;        // FRESNEL_*
   int diffuse;        // DIFFUSE_*
   int compensation;   // COMPENSATION_*
-  int anisotropic;    // 1: the surface brings tangents and two widths (forward path)
+  int anisotropic;    // 1: the surface may bring tangents and two widths
+  int roughDiffuse;   // 1: the surface may bring a diffuse roughness of its own
 };
 
 // The directional albedo of the rungs is read from a table (the second argument of shadeDirection).
 FN bool needsAlbedoTable(Rungs k) { return k.compensation != COMPENSATION_NONE || k.diffuse == DIFFUSE_COUPLED || k.diffuse == DIFFUSE_OREN_NAYAR_ENERGY; }
+
+// Models whose lobe can have two widths. The others are round whatever the surface brings.
+FN bool hasTwoWidths(Rungs k) {
+  return k.specular == SPECULAR_MICROFACET || k.specular == SPECULAR_COOK_TORRANCE || k.specular == SPECULAR_WARD_ANISOTROPIC || k.specular == SPECULAR_WARD_BOUNDED || k.specular == SPECULAR_GGX_SMITH;
+}
 
 FN int lobeFamily(Rungs k) {
   if (k.specular == SPECULAR_PHONG || k.specular == SPECULAR_MODIFIED_PHONG || k.specular == SPECULAR_MAX_PHONG) return LOBE_FAMILY_PHONG;

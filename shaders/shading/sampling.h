@@ -1,15 +1,6 @@
 // Importance sampling of the lobes, with densities. u, w: uniform in [0, 1). Directions are in the frame of the normal (z), or of the mirrored direction for Phong's lobe.
 // Half vectors are drawn with density D (n·h) per solid angle (Walter et al. 2007, eq. 28, 35 and section 5.3), so a light direction has density D (n·h) / (4 (l·h)).
 
-// An orthonormal frame around a unit vector. Duff et al. 2017, "Building an Orthonormal Basis, Revisited", listing 3.
-FN void basisFrom(vec3 n, OUT(vec3) t, OUT(vec3) b) {
-  real s = signNotZero(n.z);
-  real a = R(-1.0) / (s + n.z);
-  real c = n.x * n.y * a;
-  t = vec3(R(1.0) + s * n.x * n.x * a, s * c, -s * n.x);
-  b = vec3(c, s + n.y * n.y * a, -n.y);
-}
-
 FN vec3 fromPolar(real sin2, real w) {
   real s = sqrt(unitClamp(sin2));
   real phi = R(2.0) * BURNISH_PI * w;
@@ -54,14 +45,21 @@ FN real lobeDensity(real sin2, real alpha, int family) {
   return D_blinnPhong(lobeStable(sin2, p), p) * c;
 }
 
-// Ward's anisotropic lobe, as Walter 2005 samples it ("Notes on the Ward BRDF", eq. 6 to 9): components of tan h along tangent and bitangent. Density D_beckmannAnisotropic (n·h).
-FN vec3 sampleAnisotropic(real u, real w, real alphaX, real alphaY) {
-  real radius = sqrt(R(-0.69314718055994531) * log2(max(unitClamp(u), BURNISH_GUARD_RANDOM)));
+// The half vector of a lobe with two widths (shading/anisotropy.h; not Phong's). tan φ = alphaY/alphaX tan(2 pi w), as Walter 2005 samples Ward's ("Notes on the Ward BRDF", eq. 7);
+// the family's own angle for the width there, alpha² = alphaX² cos²(2 pi w) + alphaY² sin²(2 pi w).
+FN vec3 sampleTwoWidths(real u, real w, real alphaX, real alphaY, int family) {
   real phi = R(2.0) * BURNISH_PI * w;
-  real x = max(unitClamp(alphaX), BURNISH_GUARD_ALPHA) * radius * cos(phi);
-  real y = max(unitClamp(alphaY), BURNISH_GUARD_ALPHA) * radius * sin(phi);
-  real inverse = inversesqrt(R(1.0) + x * x + y * y);
-  return vec3(x * inverse, y * inverse, inverse);
+  real x = max(unitClamp(alphaX), BURNISH_GUARD_ALPHA) * cos(phi);
+  real y = max(unitClamp(alphaY), BURNISH_GUARD_ALPHA) * sin(phi);
+  real alpha = sqrt(x * x + y * y);
+  vec3 h = sampleLobe(u, R(0.0), alpha, family);
+  return vec3(h.x * x / alpha, h.x * y / alpha, h.z);
+}
+
+// Its density per solid angle: D (n·h).
+FN real twoWidthsDensity(vec3 h, real alphaX, real alphaY, int family) {
+  real alpha = alphaAlong(h.x, h.y, alphaX, alphaY);
+  return lobeDensity(h.x * h.x + h.y * h.y, alpha, family) * twoWidthsScale(alpha, alphaX, alphaY);
 }
 
 // The diffuse lobe: density cos/pi.

@@ -2,17 +2,21 @@
 
 // The diffuse BRDF with what specular leaves to it, albedo included. Only the dielectric part has diffuse light and takes from it: a share 1 - metalness of the surface is that
 // part, so the mixed F0 of a partly metallic one (a filtered edge, rust) must not darken it or tint it.
+// A surface with a diffuse roughness of its own is Oren-Nayar's whatever the rung, which says what share of the light gets there.
 FN vec3 diffuseRung(Surface m, Angles a, vec2 dfgL, Rungs k) {
-  if (k.diffuse == DIFFUSE_LAMBERT) return m.diffuse * Fd_lambert();
+  if (k.diffuse == DIFFUSE_LAMBERT && k.roughDiffuse == 0) return m.diffuse * Fd_lambert();
   real share;
-  if (k.diffuse == DIFFUSE_COUPLED || k.diffuse == DIFFUSE_OREN_NAYAR_ENERGY) share = coupledShare(m.dielectric, m.dfg, dfgL, m.dfgMean, k);
+  if (k.diffuse == DIFFUSE_LAMBERT) share = R(1.0);
+  else if (k.diffuse == DIFFUSE_COUPLED || k.diffuse == DIFFUSE_OREN_NAYAR_ENERGY) share = coupledShare(m.dielectric, m.dfg, dfgL, m.dfgMean, k);
   else if (k.diffuse == DIFFUSE_COUPLED_FIT) share = coupledFitShare(m.dielectric, m.nov, a.nol, m.alpha, k.fresnel);
   else share = R(1.0) - fresnelDielectricPart(m.dielectric, a.loh, k.fresnel);
-  real sigma = sigmaFromAlpha(m.alpha);
+  bool own = k.roughDiffuse == 1 && m.sigma > R(0.0);
+  real sigma = own ? m.sigma : sigmaFromAlpha(m.alpha);
+  if (k.roughDiffuse == 1 && k.diffuse < DIFFUSE_OREN_NAYAR_QUALITATIVE) sigma = m.sigma;
   if (k.diffuse == DIFFUSE_OREN_NAYAR_QUALITATIVE) return m.diffuse * (share * Fd_orenNayarQualitative(a.nol, m.nov, a.lov, sigma));
   if (k.diffuse == DIFFUSE_OREN_NAYAR)
     return vec3(Fd_orenNayar(a.nol, m.nov, a.lov, sigma, m.diffuse.x), Fd_orenNayar(a.nol, m.nov, a.lov, sigma, m.diffuse.y), Fd_orenNayar(a.nol, m.nov, a.lov, sigma, m.diffuse.z)) * share;
-  if (k.diffuse == DIFFUSE_OREN_NAYAR_ENERGY)
+  if (k.diffuse == DIFFUSE_OREN_NAYAR_ENERGY || k.roughDiffuse == 1)
     return vec3(Fd_orenNayarEnergy(a.nol, m.nov, a.lov, sigma, m.diffuse.x), Fd_orenNayarEnergy(a.nol, m.nov, a.lov, sigma, m.diffuse.y), Fd_orenNayarEnergy(a.nol, m.nov, a.lov, sigma, m.diffuse.z)) * share;
   return m.diffuse * (share * Fd_lambert());
 }

@@ -14,8 +14,9 @@ struct Surface {
   vec3 k;        // its extinction; eta 0: not a named conductor. The G-buffer holds neither (forward path)
   vec3 t;        // unit tangent and
   vec3 b;        // bitangent, with
-  real alphaX;   // the widths along them; the G-buffer holds none of the four (forward path)
+  real alphaX;   // the widths along them
   real alphaY;
+  real sigma;    // diffuse roughness of its own, radians; 0: none
   vec2 dfg;      // the lobe's (scale, bias) at n·v and
   vec2 dfgMean;  // over the hemisphere, from the table; only for rungs that need it (needsAlbedoTable)
 };
@@ -42,20 +43,24 @@ FN Surface makeSurface(vec3 n, vec3 v, vec3 albedo, real substance, real alpha) 
   m.b = vec3(R(0.0));
   m.alphaX = alpha;
   m.alphaY = alpha;
+  m.sigma = R(0.0);
   m.dfg = vec2(R(1.0), R(0.0));
   m.dfgMean = vec2(R(1.0), R(0.0));
   return m;
 }
 
-// Tangents for the anisotropic rungs: strength in [0, 1] widens the lobe along the tangent, alpha_t = mix(alpha, 1, strength²) (KHR_materials_anisotropy).
+// Gives the lobe a width of its own along the tangent; under m.alpha it counts for nothing. What asks for one alpha (tables of albedo, coupling, occlusion) gets the mean of the two:
+// docs/shading.md has the error.
 // tangent: any length; one that is no direction, or lies along the normal, leaves the surface isotropic.
-FN void setTangent(INOUT(Surface) m, vec3 tangent, real strength) {
+FN void setWidth(INOUT(Surface) m, vec3 tangent, real alphaX) {
   vec3 held = vec3(heldLarge(tangent.x), heldLarge(tangent.y), heldLarge(tangent.z));
   vec3 t = held - m.n * dot(m.n, held);
   real length2 = dot(t, t);
   if (length2 <= BURNISH_GUARD_LENGTH) return;
   m.t = t * inversesqrt(length2);
   m.b = cross(m.n, m.t);
-  real s = unitClamp(strength);
-  m.alphaX = m.alpha + (R(1.0) - m.alpha) * s * s;
+  m.alphaX = max(alphaX, m.alpha);  // model: the wider of the two lies along the tangent
+  m.alpha = meanAlpha(m.alphaX, m.alphaY);
+  m.power = powerFromAlpha(m.alpha);
 }
+FN void setTangent(INOUT(Surface) m, vec3 tangent, real strength) { setWidth(m, tangent, alphaOfStrength(m.alpha, strength)); }

@@ -23,6 +23,24 @@ FN Surface metalCase(vec4 n, vec4 v, vec4 albedo, vec4 tangent, vec4 index) {
   return m;
 }
 
+// With the albedo's red for a diffuse roughness of its own.
+FN Surface roughCase(vec4 n, vec4 v, vec4 albedo, vec4 dfg, vec4 mean) {
+  Surface m = tableCase(n, v, albedo, dfg, mean);
+  m.sigma = albedo.x;
+  return m;
+}
+
+// The direction that the target of details gives back, and the sine of its angle to what went in; what went in: a direction in the plane of the stored normal.
+FN vec4 detailCase(vec3 normal, vec3 direction, real alphaX, real sigma) {
+  vec3 n = unpackNormal(packNormal(normal));
+  vec3 held = vec3(heldLarge(direction.x), heldLarge(direction.y), heldLarge(direction.z));
+  vec4 d = packDetail(n, direction, alphaX, sigma);
+  vec3 t = unpackTangent(n, d);
+  vec3 plane = held - n * dot(n, held);
+  vec3 off = cross(t, plane) * inversesqrt(max(dot(plane, plane), BURNISH_GUARD_LENGTH));
+  return vec4(sqrt(dot(off, off)), decodeAlpha(d.z), d.w, dot(t, n));
+}
+
 // The refracted direction and the transmittance.
 FN vec4 refractCase(vec3 toEye, vec3 n, real eta) {
   vec3 direction;

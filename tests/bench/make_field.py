@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Writes the scaling scenes `field`: many instances of a few meshes, or of as many meshes as instances, and many small lights.
 
-    make_field.py -o DIR [--instances N,N,...] [--lights L,L,...] [--distinct]
+    make_field.py -o DIR [--instances N,N,...] [--lights L,L,...] [--distinct] [--clustered]
 
 Output: DIR/field_I<instances>_L<lights>.gltf for each pair (with --distinct: every instance has a mesh of its own), sharing nothing.
+With --clustered the lights crowd on the middle ninth of the field, else they are spread over it.
 A square lattice of low-poly things, one a metre, on a plain; one directional light, L point lights of range 2 m just above it. Camera `bench` sees all of it from above.
 """
 import math
@@ -26,7 +27,7 @@ def thing(kind):
     return sg.merge(sg.box((0.5, 0.25, 0.4), (0, 0.125, 0), 0.02), sg.box((0.2 + 0.02 * kind, 0.3, 0.2), (0, 0.4, 0), 0.02))
 
 
-def field(folder, instances, lights, distinct):
+def field(folder, instances, lights, distinct, clustered):
     """One scene file."""
     g = sg.Gltf("Burnish tests/bench/make_field.py")
     rng = np.random.Generator(np.random.PCG64(77))
@@ -42,7 +43,8 @@ def field(folder, instances, lights, distinct):
         mesh = g.mesh("thing_%d" % i, (thing(i % KINDS), mats[i % KINDS])) if distinct else kinds[i % KINDS]
         g.node("thing", at, float(rng.integers(360)), mesh=mesh)
     g.light("sun", "directional", (0, 12, 0), (-0.4, -1.0, -0.3), (1.0, 0.95, 0.88), 2.0)
-    at = rng.uniform((-side / 2, 0.5, -side / 2), (side / 2, 1.2, side / 2), (lights, 3)).round(3)
+    reach = side / 6 if clustered else side / 2
+    at = rng.uniform((-reach, 0.5, -reach), (reach, 1.2, reach), (lights, 3)).round(3)
     for k in range(lights):
         g.light("point_%d" % k, "point", at[k], None, tuple((0.3 + 0.7 * rng.random(3)).round(3)), 4.0, 2.0)
     name = "field_I%d_L%d" % (instances, lights)
@@ -62,7 +64,7 @@ def main():
     os.makedirs(folder, exist_ok=True)
     for instances in numbers("--instances", [1000, 10000]):
         for lights in numbers("--lights", [64]):
-            print(field(folder, instances, lights, "--distinct" in sys.argv))
+            print(field(folder, instances, lights, "--distinct" in sys.argv, "--clustered" in sys.argv))
 
 
 if __name__ == "__main__":

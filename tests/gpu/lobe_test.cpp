@@ -31,7 +31,7 @@ dvec3 errorsOf(GlFixture& f, float roughness, float steepest) {
   const auto gpu = onGpu(f, cases,
                          "vec4(lobePow(dot(a.xyz, normalize(b.xyz + c.xyz)), powerFromAlpha(a.w)), "
                          "lobeExp2(dot(a.xyz, b.xyz) + dot(a.xyz, c.xyz), 1.0 / (2.0 + 2.0 * dot(b.xyz, c.xyz)), powerFromAlpha(a.w)), "
-                         "lobeRung(makeSurface(a.xyz, c.xyz, vec3(1), 1, a.w), anglesOf(makeSurface(a.xyz, c.xyz, vec3(1), 1, a.w), b.xyz), LOBE_STABLE), 0)");
+                         "lobeRung(makeSurface(a.xyz, c.xyz, vec3(1), 1, a.w), anglesOf(makeSurface(a.xyz, c.xyz, vec3(1), 1, a.w), b.xyz), powerFromAlpha(a.w), LOBE_STABLE), 0)");
   dvec3 worst(0);
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const dvec3 n = glm::normalize(dvec3(cases[i][0])), l = glm::normalize(dvec3(cases[i][1])), v = glm::normalize(dvec3(cases[i][2])), x = glm::cross(n, glm::normalize(l + v));

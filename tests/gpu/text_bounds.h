@@ -52,11 +52,23 @@ inline double visibilityCeiling(const Seen& s, int geometry, int distribution) {
   }
 }
 
-/// At most specularRung. `inconsistent`: the tangents may be no frame of the normal, so that h's components along them say nothing of n·h.
-inline double specularCeiling(const shading::Rungs& k, const Seen& s, bool inconsistent) {
+/// At most specularRung with two widths: D(h) = D(angle; alpha) alpha²/(ax ay) with alpha between them, whether or not the tangents are a frame of the normal.
+inline double twoWidthsCeiling(const shading::Rungs& k, const Seen& s) {
+  const double widths = std::max(s.m.alphaX, 1e-6) * std::max(s.m.alphaY, 1e-6);
+  // Beckmann's peak over 1/(pi alpha²) is at most 4 alpha⁴ exp(1/alpha² - 2), at alpha 1.
+  const double peak = (k.specular == SPECULAR_GGX_SMITH || k.distribution == DISTRIBUTION_GGX ? 1 : 4 / std::exp(1.0)) / (kPi * widths) * (1 + 1e-5);
+  switch (k.specular) {
+    case SPECULAR_WARD_ANISOTROPIC: return 0.25 / (kPi * widths) * (1 + 1e-5) * std::sqrt(s.nol / std::max(s.nov, 1e-4));
+    case SPECULAR_WARD_BOUNDED: return peak * s.inverse * s.nol;
+    default: return peak * std::min(0.5e12, k.geometry == GEOMETRY_KELEMEN && k.specular == SPECULAR_MICROFACET ? s.nol * s.inverse : 0.5 / std::max(s.nov, 1e-12));
+  }
+}
+
+/// At most specularRung.
+inline double specularCeiling(const shading::Rungs& k, const Seen& s) {
   namespace f64 = shading::f64;
   const double p = f64::powerFromAlpha(s.held), q = p / 4;
-  const double widths = inconsistent ? s.held * s.held : std::max(s.m.alphaX, 1e-6) * std::max(s.m.alphaY, 1e-6);
+  if (k.anisotropic != 0 && hasTwoWidths(k)) return twoWidthsCeiling(k, s);
   switch (k.specular) {
     case SPECULAR_PHONG:
     case SPECULAR_BLINN_PHONG: return 1;
@@ -65,12 +77,8 @@ inline double specularCeiling(const shading::Rungs& k, const Seen& s, bool incon
     case SPECULAR_NORMALIZED_BLINN_PHONG: return (p + 8) / (8 * kPi) * s.nol;
     case SPECULAR_COOK_TORRANCE: return peakOf(DISTRIBUTION_BECKMANN, s.held) * visibilityCeiling(s, GEOMETRY_V_CAVITY, DISTRIBUTION_BECKMANN);
     case SPECULAR_WARD:
-    case SPECULAR_WARD_ANISOTROPIC: return 0.25 / (kPi * (k.specular == SPECULAR_WARD ? s.held * s.held : widths)) * std::sqrt(s.nol / std::max(s.nov, 1e-4));  // BURNISH_GUARD_NOV
-    case SPECULAR_WARD_BOUNDED: {
-      const bool wide = k.anisotropic != 0 && s.m.alphaX != s.m.alphaY;
-      const double peak = inconsistent && k.anisotropic ? 1e12 / (kPi * widths) : wide ? 1 / (kPi * widths) : peakOf(DISTRIBUTION_BECKMANN, s.held);  // BURNISH_GUARD_COS2, squared
-      return peak * s.inverse * s.nol;
-    }
+    case SPECULAR_WARD_ANISOTROPIC: return 0.25 / (kPi * s.held * s.held) * std::sqrt(s.nol / std::max(s.nov, 1e-4));  // BURNISH_GUARD_NOV
+    case SPECULAR_WARD_BOUNDED: return peakOf(DISTRIBUTION_BECKMANN, s.held) * s.inverse * s.nol;
     case SPECULAR_GGX_SMITH: return peakOf(DISTRIBUTION_GGX, s.held) * visibilityCeiling(s, GEOMETRY_SMITH, DISTRIBUTION_GGX);
     default: break;
   }
@@ -100,8 +108,8 @@ inline double diffuseCeiling(const shading::Rungs& k, const Seen& s) {
 }
 
 /// At most shadeDirection.
-inline double shadeCeiling(const shading::Rungs& k, const Seen& s, const Case& in, bool inconsistent) {
-  double most = diffuseCeiling(k, s) * s.nol + specularCeiling(k, s, inconsistent);
+inline double shadeCeiling(const shading::Rungs& k, const Seen& s, const Case& in) {
+  double most = diffuseCeiling(k, s) * s.nol + specularCeiling(k, s);
   // scatteredShare <= 1
   if (k.compensation == COMPENSATION_MULTIPLE_SCATTERING) most += shading::f64::multipleScatteringLobe(s.m.dfg, glm::dvec2(in[4].z, in[4].w), s.m.dfgMean + 1e-6) * s.nol * (1 + 1e-2);
   return most;

@@ -66,6 +66,20 @@ void addDiffuse(std::vector<Row>& rows) {
     if (diffuse == DIFFUSE_OREN_NAYAR_ENERGY) row.bound = {2e-4, 3e-6};
     rows.push_back(row);
   }
+  for (int diffuse : {DIFFUSE_LAMBERT, DIFFUSE_COUPLED_FIT, DIFFUSE_OREN_NAYAR_QUALITATIVE}) {
+    // sigma is the red of the material.
+    Row row{"own roughness, " + rungName("diffuse", diffuse), {rungName("rough-diffuse", 1)}, &kShading,
+            TEXT(vec4(diffuseRung(roughCase(a, c, d, e, f), anglesOf(roughCase(a, c, d, e, f), vec3(b)), vec2(e.z, e.w), rungs), R(0.0))), defaultRungs(), diffuse,
+            {" of 1/pi or of the value", [](const Row&, const Case&, const glm::dvec4& exact, int k) { return std::max(1 / kPi, exact[k]); }}, {2e-4, 3e-6}, [](const Row& r, const Case& in) {
+              const Seen s = seen(in, false);
+              const double most = 1.05 * std::max(roughDiffuseCeiling(DIFFUSE_OREN_NAYAR_ENERGY, s.leastNol, s.nov), roughDiffuseCeiling(r.rungs.diffuse, s.leastNol, s.nov));
+              return Ranges{{{0, most}, {0, most}, {0, most}}};
+            }};
+    row.rungs.diffuse = diffuse;
+    row.rungs.roughDiffuse = 1;
+    rows.push_back(row);
+  }
+  rows.push_back({"orenNayarEnergyAlbedo", {}, &kRoughDiffuse, TEXT(vec4(orenNayarEnergyAlbedo(a.y, a.w, b.x), R(0.0), R(0.0), R(0.0))), {}, 0, absolute(), {2e-4, 2e-6}, ranges({0, 1})});
   rows.push_back({"Fd_lambert, Fd_orenNayarQualitative, Fd_orenNayar, Fd_orenNayarEnergy", {}, &kRoughDiffuse,
                   TEXT(vec4(Fd_lambert(), Fd_orenNayarQualitative(a.x, a.y, a.z, a.w), Fd_orenNayar(a.x, a.y, a.z, a.w, b.x), Fd_orenNayarEnergy(a.x, a.y, a.z, a.w, b.x))), {}, 0, absolute(), {5e-4, 2e-6},
                   [](const Row&, const Case& in) {

@@ -44,12 +44,8 @@ Case hardFog(Random& random) {
 }
 const Domain kFog{"fog", throughFog, hardFog};
 
-Case gaussian(Random& random) {
-  const float ax = kAlpha.ordinary(random), ay = kAlpha.ordinary(random), x = uniform(random, -2, 2) * ax * 0.5f, y = uniform(random, -2, 2) * ay * 0.5f;
-  const float s = 1 / std::sqrt(1 + x * x + y * y);
-  return {glm::vec4(x * s, y * s, s * s, ax), glm::vec4(ay, 0, 0, 0)};
-}
-const Domain kAnisotropic{"two widths", gaussian, numbers("", {kAny, kAny, kSin2, kAlpha, kAlpha}).adverse};
+/// A direction's components along tangent and bitangent, and two widths.
+const Domain kTwoWidths = numbers("two widths", {kAny, kAny, kAlpha, kAlpha, kUnit});
 
 }  // namespace
 
@@ -76,7 +72,7 @@ void addLobes(std::vector<Row>& rows) {
   for (int lobe = LOBE_POW; lobe <= LOBE_STABLE; ++lobe) {
     // From directions: their own rounding turns h.
     Row row{"lobeRung, phongRung: " + rungName("lobe", lobe), {rungName("lobe", lobe)}, &kShading,
-            TEXT(vec4(lobeRung(surfaceCase(a, c, d), anglesOf(surfaceCase(a, c, d), vec3(b)), rung), phongRung(surfaceCase(a, c, d), anglesOf(surfaceCase(a, c, d), vec3(b)), rung), R(0.0), R(0.0))),
+            TEXT(vec4(lobeRung(surfaceCase(a, c, d), anglesOf(surfaceCase(a, c, d), vec3(b)), powerFromAlpha(a.w), rung), phongRung(surfaceCase(a, c, d), anglesOf(surfaceCase(a, c, d), vec3(b)), rung), R(0.0), R(0.0))),
             {}, lobe, absolute(), 5e-4, ranges({0, 1}, {0, 1})};
     if (lobe != LOBE_STABLE) {
       row.bound = 8;  // the cosine comes from six products, a root and a reciprocal
@@ -91,10 +87,12 @@ void addLobes(std::vector<Row>& rows) {
                   TEXT(vec4(D_beckmann(a.x, a.y), D_ggx(a.x, a.y), R(0.0), R(0.0))), {}, 0, ofPeak(), 2e-6, [](const Row&, const Case& in) {
                     return Ranges{{{0, peakOf(DISTRIBUTION_BECKMANN, double(in[0].y))}, {0, peakOf(DISTRIBUTION_GGX, double(in[0].y))}}};
                   }});
-  rows.push_back({"D_beckmannAnisotropic", {}, &kAnisotropic, TEXT(vec4(D_beckmannAnisotropic(a.x, a.y, a.z, a.w, b.x), R(0.0), R(0.0), R(0.0))), {}, 0, ofPeak(), 2e-6,
+  rows.push_back({"alphaAlong, alphaToward, twoWidthsScale, alphaOfStrength", {rungName("anisotropy", 1)}, &kTwoWidths,
+                  TEXT(vec4(alphaAlong(a.x, a.y, a.z, a.w), alphaToward(a.x, a.y, a.z, a.w), twoWidthsScale(alphaAlong(a.x, a.y, a.z, a.w), a.z, a.w), alphaOfStrength(unitClamp(a.z), b.x))), {}, 0, relative(), 4e-6,
                   [](const Row&, const Case& in) {
-                    const double c2 = std::clamp(double(in[0].z), 1e-6, 1.0), ax = std::clamp(double(in[0].w), 1e-6, 1.0), ay = std::clamp(double(in[1].x), 1e-6, 1.0);
-                    return Ranges{{{0, 1 / (kPi * ax * ay * c2 * c2)}}};
+                    const double ax = std::clamp(double(in[0].z), 1e-6, 1.0), ay = std::clamp(double(in[0].w), 1e-6, 1.0), low = std::min(ax, ay), high = std::max(ax, ay);
+                    // Components past 1e12 overflow where they are divided by a width: the narrowest that can be, then.
+                    return Ranges{{{0, high * (1 + 1e-6)}, {low * (1 - 1e-6), high * (1 + 1e-6)}, {0, high / low * (1 + 1e-6)}, {0, 1 + 1e-6}}};
                   }});
   for (int n = NORMALIZATION_NONE; n <= NORMALIZATION_EXACT; ++n) {
     Row row{rungName("normalization", n), {rungName("normalization", n)}, &kNormalizations, TEXT(vec4(normalizationRung(a.y, rung), dfgScale(a.y, rungs), R(0.0), R(0.0))),

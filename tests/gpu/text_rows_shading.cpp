@@ -1,4 +1,6 @@
 // The table's rows for whole specular models, for the light of the surroundings and for sampling.
+#include <fmt/format.h>
+
 #include <cfloat>
 
 #include "shading/test_rungs.h"
@@ -12,18 +14,18 @@ namespace {
 Scale ofLobe() {
   return {" of the peak", [](const Row& row, const Case& in, const glm::dvec4&, int k) {
             const bool metal = row.domain == &kMetal;
-            const double most = specularCeiling(row.rungs, seen(in, metal), false);
+            const double most = specularCeiling(row.rungs, seen(in, metal));
             return k == 0 && !metal ? most : std::max(most, 1 / kPi);
           }};
 }
 /// specularRung in x, then shadeDirection.
 Ranges shaded(const Row& row, const Case& in) {
   const Seen s = seen(in, false);
-  const double specular = specularCeiling(row.rungs, s, true), most = shadeCeiling(row.rungs, s, in, true);
+  const double specular = specularCeiling(row.rungs, s), most = shadeCeiling(row.rungs, s, in);
   return {{{0, specular}, {0, most}, {0, most}, {0, most}}};
 }
 Ranges shadedMetal(const Row& row, const Case& in) {
-  const double most = shadeCeiling(row.rungs, seen(in, true), in, true);
+  const double most = shadeCeiling(row.rungs, seen(in, true), in);
   return {{{0, most}, {0, most}, {0, most}}};
 }
 
@@ -73,6 +75,7 @@ const Domain kLight = numbers("lights", {kDistance2, kUnit, kUnit, kZero, kAny, 
 const Domain kMaps = numbers("maps", {kUnit, kUnit, kUnit, kUnit, kAny, kAny, kAny});
 const Domain kBytes = numbers("bytes", {kByte, kByte, kByte});
 const Domain kRadiances = numbers("radiance", {kRadiance, kRadiance, kRadiance});
+const Domain kDetails = numbers("details", {kAny, kAny, kAny, kAlpha, kAny, kAny, kAny, kUnit});
 const Domain kDirections{"directions", [](Random& random) { return Case{glm::vec4(randomUnit(random), 0)}; }, [](Random& random) { return Case{glm::vec4(hardUnit(random), 0)}; }};
 const Domain kVectors = {"vectors", [](Random& random) { return Case{glm::vec4(randomUnit(random) * uniform(random, 0.1f, 10), 0)}; }, numbers("", {kAny, kAny, kAny}).adverse};
 
@@ -90,11 +93,9 @@ void addSpecular(std::vector<Row>& rows) {
   const auto metal = [&](std::string name, const shading::Rungs& k, std::vector<std::string> covers) {
     rows.push_back({std::move(name), std::move(covers), &kMetal, TEXT(vec4(shadeDirection(metalCase(a, c, d, e, f), vec3(b), vec2(R(0.5), R(0.1)), rungs), R(0.0))), k, 0, ofLobe(), 3e-4, shadedMetal});
   };
-  for (const int model : {SPECULAR_WARD_ANISOTROPIC, SPECULAR_WARD_BOUNDED}) {
-    shading::Rungs k = defaultRungs();
-    k.specular = model;
+  for (shading::Rungs k : specularRungs()) {
     k.anisotropic = 1;
-    metal("two widths, " + nameOf(k), k, {rungName("specular", model)});
+    if (hasTwoWidths(k) && k.normalization == NORMALIZATION_EXACT) metal("two widths, " + nameOf(k), k, {rungName("specular", k.specular), rungName("anisotropy", 1)});
   }
   for (int fresnel = FRESNEL_NONE; fresnel <= FRESNEL_CONDUCTOR; ++fresnel) {
     shading::Rungs k = defaultRungs();
@@ -113,6 +114,8 @@ void addSpecular(std::vector<Row>& rows) {
   rows.push_back({"decodeAlbedo", {}, &kMaps, TEXT(vec4(decodeAlbedo(vec3(a)), R(0.0))), {}, 0, ulp(), 3, within(0, 1)});
   rows.push_back({"octahedralEncode, octahedralDecode", {}, &kVectors, TEXT(vec4(octahedralDecode(octahedralEncode(vec3(a))), R(0.0))), {}, 0, absolute(), 1e-6, within(-1, 1)});
   rows.push_back({"unpackNormal", {}, &kBytes, TEXT(vec4(unpackNormal(vec3(a)), R(0.0))), {}, 0, absolute(), 2e-6, within(-1, 1)});
+  // A step of the tangent's code is 4.8e-5 radians, and the normal's a step of its own.
+  rows.push_back({"packDetail, unpackTangent", {}, &kDetails, TEXT(detailCase(vec3(a), vec3(b), unitClamp(a.w), b.w)), {}, 0, absolute(), 2e-4, ranges({0, 1 + 1e-5}, {4e-4 * (1 - 1e-5), 1 + 1e-5}, {0, 1}, {-1e-5, 1e-5})});
   rows.push_back({"packNormal", {}, &kVectors, TEXT(vec4(packNormal(vec3(a)), R(0.0))), {}, 0, absolute(), 1.01, within(0, 1)});  // a step of the code moves a byte by its whole range
 }
 
@@ -163,7 +166,9 @@ void addSampling(std::vector<Row>& rows) {
                     family == LOBE_FAMILY_PHONG ? 1e-4 : family == LOBE_FAMILY_GGX ? 3e-5 : 8e-6,  // near the horizon the cosine is the root of a rounded difference
                     [](const Row& row, const Case& in) { return Ranges{{{-1, 1}, {-1, 1}, {0, 1}, {0, densityCeiling(row.rung, double(in[0].z))}}}; }});
   }
-  rows.push_back({"sampleAnisotropic, cosineDensity", {}, &kSampling, TEXT(vec4(sampleAnisotropic(a.x, a.y, a.z, b.x), cosineDensity(a.w))), {}, 0, absolute(), 8e-6, ranges({-1, 1}, {-1, 1}, {0, 1}, {0, 1 / kPi})});
+  for (int family = LOBE_FAMILY_BLINN_PHONG; family < LOBE_FAMILY_PHONG; ++family)
+    rows.push_back({fmt::format("sampleTwoWidths, cosineDensity: family {}", family), {}, &kSampling, TEXT(vec4(sampleTwoWidths(a.x, a.y, a.z, b.x, rung), cosineDensity(a.w))), {}, family, absolute(), family == LOBE_FAMILY_GGX ? 3e-5 : 8e-6,
+                    ranges({-1, 1}, {-1, 1}, {0, 1}, {0, 1 / kPi})});
   rows.push_back({"sampleCosine, radicalInverse", {}, &kSampling, TEXT(vec4(sampleCosine(a.x, a.y), radicalInverse(int(b.y)))), {}, 0, absolute(), 2e-6, ranges({-1, 1}, {-1, 1}, {0, 1}, {0, 1 - 0x1p-25})});
   rows.push_back({"basisFrom, tangent", {}, &kDirections, TEXT(basisCase(vec3(a), false)), {}, 0, absolute(), 5e-7, within(-1, 1)});
   rows.push_back({"basisFrom, bitangent", {}, &kDirections, TEXT(basisCase(vec3(a), true)), {}, 0, absolute(), 5e-7, within(-1, 1)});

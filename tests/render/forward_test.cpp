@@ -79,6 +79,12 @@ std::vector<Field> fieldsOf(const Workshop& w) {
       {"emission", 0.02, [](Material& m) { m.emission = {1, 2, 0.5f}; }, nothing},
       {"emissive map", 0.02, [&](Material& m) { m.emission = vec3(2), m.emissiveMap = w.emissive, wider(m.uvEmissive); }, [](Material& m) { m.emission = vec3(2); }},
       {"unlit", 0.02, [&](Material& m) { m.unlit = true, m.mapA = w.albedo; }, [&](Material& m) { m.mapA = w.albedo; }},
+      {"anisotropy", 0.09, [](Material& m) { m.anisotropy = 0.7f, m.roughness = 0.4f, m.substance = 1; }, [](Material& m) { m.roughness = 0.4f, m.substance = 1; }},
+      {"anisotropy's rotation", 0.09, [](Material& m) { m.anisotropy = 0.7f, m.anisotropyRotation = 0.8f, m.substance = 1; }, [](Material& m) { m.anisotropy = 0.7f, m.substance = 1; }},
+      {"anisotropy with normals", 0.06, [&](Material& m) { m.anisotropy = 0.7f, m.mapB = w.normals, m.substance = 1; }, [&](Material& m) { m.mapB = w.normals, m.substance = 1; }},
+      {"anisotropy, occlusion", 0.06, [&](Material& m) { m.anisotropy = 0.7f, m.mapC = w.occlusion; }, [&](Material& m) { m.anisotropy = 0.7f; }},
+      {"diffuse roughness", 0.02, [](Material& m) { m.diffuseRoughness = 0.6f; }, nothing},
+      {"diffuse roughness, brushed", 0.06, [](Material& m) { m.diffuseRoughness = 0.6f, m.anisotropy = 0.6f; }, [](Material& m) { m.anisotropy = 0.6f; }},
       {"two-sided", 0.02, [](Material& m) { m.twoSided = true; }, nothing},
       {"two-sided with normals", 0.03, [&](Material& m) { m.twoSided = true, m.mapB = w.normals; }, [&](Material& m) { m.mapB = w.normals; }},
   };

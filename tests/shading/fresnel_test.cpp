@@ -200,10 +200,10 @@ TEST_CASE("refraction: Snell's law, unit length, T + F = 1, the same both ways")
     CHECK(dot(out - n * dot(out, n), eye - n * c) <= 1e-12);  // across the normal
     // Back along the ray, from the other side.
     if (-dot(out, n) < 1e-4) continue;
-    dvec3 back;
+    dvec3 back(0);
     CHECK(f64::refractSnell(out, -n, 1 / eta, back) == Approx(t).margin(1e-7));
     CHECK(glm::length(back - eye) < 1e-6);
-    glm::vec3 outF;
+    glm::vec3 outF(0);
     CHECK(std::abs(double(f32::refractSnell(glm::vec3(eye), glm::vec3(n), float(eta), outF)) - t) <
           (std::abs(sinEye - eta) < 0.01 ? 0.1 : 1e-4));
   }

@@ -121,9 +121,10 @@ TEST_CASE("geometry: void, Kelemen, Schlick-Smith and V-cavities by hand") {
     const f64::Surface m = f64::makeSurface({0, 0, 1}, v, dvec3(1), 1, k);
     const f64::Angles a = f64::anglesOf(m, l);
     const auto schlick = [&](double w) { return 0.25 / ((l.z * (1 - w) + w) * (v.z * (1 - w) + w)); };
-    CHECK(f64::geometryRung(m, a, GEOMETRY_SCHLICK_SMITH, DISTRIBUTION_GGX) == Approx(schlick(k / 2)).epsilon(1e-9));
+    const f64::Widths w = f64::widthsOf(m, a, shading::Rungs{});
+    CHECK(f64::geometryRung(m, a, w, GEOMETRY_SCHLICK_SMITH, DISTRIBUTION_GGX) == Approx(schlick(k / 2)).epsilon(1e-9));
     for (int d : {DISTRIBUTION_BLINN_PHONG, DISTRIBUTION_BECKMANN})
-      CHECK(f64::geometryRung(m, a, GEOMETRY_SCHLICK_SMITH, d) ==
+      CHECK(f64::geometryRung(m, a, w, GEOMETRY_SCHLICK_SMITH, d) ==
             Approx(schlick(k * std::sqrt(2 / kPi))).epsilon(1e-7));
   }
 }

@@ -154,20 +154,23 @@ TEST_CASE("sampling: two widths, and the diffuse lobe") {
     for (const double ratio : {0.25, 0.8}) {
       const double ay = ax * ratio;
       CAPTURE(ax, ay);
-      const auto density = [&](double sin2, double phi) {
-        const double s = std::sqrt(sin2);
-        return f64::D_beckmannAnisotropic(s * std::cos(phi), s * std::sin(phi), 1 - sin2, ax, ay) * std::sqrt(1 - sin2);
-      };
-      Bins inDouble(std::sqrt(ax * ay), density), inFloat = inDouble;
-      checkSampler(inDouble, [&](double u, double w) { return f64::sampleAnisotropic(u, w, ax, ay); });
-      checkSampler(inFloat, [&](double u, double w) {
-        return dvec3(f32::sampleAnisotropic(float(u), float(w), float(ax), float(ay)));
-      });
+      for (int family = LOBE_FAMILY_BLINN_PHONG; family < LOBE_FAMILY_PHONG; ++family) {
+        CAPTURE(family);
+        const auto density = [&](double sin2, double phi) {
+          const double s = std::sqrt(sin2);
+          return f64::twoWidthsDensity({s * std::cos(phi), s * std::sin(phi), std::sqrt(1 - sin2)}, ax, ay, family);
+        };
+        Bins inDouble(std::sqrt(ax * ay), density), inFloat = inDouble;
+        checkSampler(inDouble, [&](double u, double w) { return f64::sampleTwoWidths(u, w, ax, ay, family); });
+        checkSampler(inFloat, [&](double u, double w) {
+          return dvec3(f32::sampleTwoWidths(float(u), float(w), float(ax), float(ay), family));
+        });
+      }
     }
   Bins cosine(1, [](double sin2, double) { return f64::cosineDensity(std::sqrt(1 - sin2)); }), cosineFloat = cosine;
   checkSampler(cosine, [](double u, double w) { return f64::sampleCosine(u, w); });
   checkSampler(cosineFloat, [](double u, double w) { return dvec3(f32::sampleCosine(float(u), float(w))); });
-  WARN("sampling, two widths and cosine: smallest p-value " << smallest << " of 18");
+  WARN("sampling, two widths and cosine: smallest p-value " << smallest << " of 50");
 }
 
 TEST_CASE("sampling: ends of the random numbers give unit vectors in the upper hemisphere") {
@@ -181,7 +184,8 @@ TEST_CASE("sampling: ends of the random numbers give unit vectors in the upper h
           CHECK(h.z >= 0);
           CHECK(std::isfinite(f32::lobeDensity(h.x * h.x + h.y * h.y, alpha, family)));
         }
-        CHECK(glm::length(f32::sampleAnisotropic(u, w, alpha, 1)) == Approx(1).epsilon(1e-6));
+        for (int family = LOBE_FAMILY_BLINN_PHONG; family < LOBE_FAMILY_PHONG; ++family)
+          CHECK(glm::length(f32::sampleTwoWidths(u, w, alpha, 1, family)) == Approx(1).epsilon(1e-6));
         CHECK(glm::length(f32::sampleCosine(u, w)) == Approx(1).epsilon(1e-6));
       }
 }

@@ -157,6 +157,25 @@ TEST_CASE("anisotropy is read, its texture is left out", "[gltf]") {
   fault("anisotropyTexture", {{"index", 7}}, "does not exist");
 }
 
+TEST_CASE("a material says its diffuse roughness in its extras", "[gltf]") {
+  const auto with = [](const Json& sigma) {
+    return readJson({{"materials", {{{"extras", {{"burnish", {{"diffuseRoughness", sigma}}}}}}}}});
+  };
+  for (const double sigma : {0.0, 0.25, 1.0}) {
+    const Reading r = with(sigma);
+    INFO(r.message());
+    REQUIRE(r.asset);
+    CHECK((r.asset->materials[0].diffuseRoughness == float(sigma) && r.report.empty()));
+  }
+  for (const Json& bad : {Json(-0.1), Json(1.5), Json("rough"), Json(nullptr)}) {
+    const Reading r = with(bad);
+    INFO(r.message());
+    REQUIRE(r.asset);
+    CHECK(r.asset->materials[0].diffuseRoughness == 0);
+    CHECK(r.warned("/materials/0/extras/burnish/diffuseRoughness: a number from 0 to 1 (radians) is expected: it is left out"));
+  }
+}
+
 TEST_CASE("a material names its substance in its extras", "[gltf]") {
   Json file = {{"extensionsUsed", {"KHR_materials_unlit", "KHR_materials_pbrSpecularGlossiness"}}};
   const auto with = [&](const Json& extras, const Json& extensions = Json::object()) {

@@ -107,7 +107,7 @@ TEST_CASE("A named dielectric gives F0 and leaves the base colour", "[import]") 
   CHECK(w.report.empty());
 }
 
-TEST_CASE("Anisotropy is brought into range and reported", "[import]") {
+TEST_CASE("Anisotropy is brought into range and reported, and diffuse roughness comes along", "[import]") {
   World w;
   asset::Material m;
   m.name = "brushed";
@@ -117,15 +117,17 @@ TEST_CASE("Anisotropy is brought into range and reported", "[import]") {
   m.anisotropy = 0.75f;
   out = w.convert(m);
   CHECK((out.anisotropy == 0.75f && out.anisotropyRotation == 1.5f));
-  CHECK(w.warned("material \"brushed\": anisotropy is drawn by the forward reference path only"));
+  CHECK(w.report.empty());
   m.anisotropy = 2;
   m.anisotropyRotation = std::numeric_limits<float>::infinity();
   out = w.convert(m);
   CHECK((out.anisotropy == 1 && out.anisotropyRotation == 0));
   CHECK(w.warned("anisotropyStrength is 2: it was brought into 0..1"));
   CHECK(w.warned("anisotropyRotation is not finite: 0 is used"));
+  m.diffuseRoughness = 0.4f;
+  CHECK(w.convert(m).diffuseRoughness == 0.4f);
   m.unlit = true;
-  CHECK(w.convert(m).anisotropy == 0);
+  CHECK((w.convert(m).anisotropy == 0 && w.convert(m).diffuseRoughness == 0));
 }
 
 TEST_CASE("Anisotropic materials have tangents", "[import]") {

@@ -62,6 +62,7 @@ void printMaterials(const Scene& scene, const std::map<std::uint32_t, Use>& uses
     if (m.twoSided) extra += ", two-sided";
     if (m.unlit) extra += ", unlit";
     if (m.mapC) extra += ", map C";
+    if (m.diffuseRoughness > 0) extra += fmt::format(", diffuse roughness {:.2f}", m.diffuseRoughness);
     if (m.anisotropy > 0) extra += fmt::format(", anisotropy {:.2f} at {:.1f}°", m.anisotropy, m.anisotropyRotation * 180 / M_PI);
     if (m.conductorEta != glm::vec3(0))
       extra += fmt::format(", eta {:.3f},{:.3f},{:.3f} k {:.3f},{:.3f},{:.3f}", m.conductorEta.x, m.conductorEta.y, m.conductorEta.z, m.conductorK.x, m.conductorK.y,

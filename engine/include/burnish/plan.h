@@ -27,7 +27,7 @@ enum class Output : std::uint8_t {
   Linear,   ///< linear radiance in cd/m², untouched by exposure, float
 };
 /// What is drawn in place of the final picture.
-enum class DebugView : std::uint8_t { Final, Albedo, Substance, Normal, Roughness, Depth, Position, Occlusion, Lights, Nonfinite };
+enum class DebugView : std::uint8_t { Final, Albedo, Substance, Normal, Roughness, Depth, Position, Occlusion, Lights, Nonfinite, Anisotropy, DiffuseRoughness };
 BURNISH_API std::span<const std::string_view> debugViewNames();  ///< in the order of the enum
 
 enum class CalledBy : std::uint8_t { Scene, Setting };

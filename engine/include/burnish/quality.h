@@ -29,6 +29,8 @@ enum class Ambient : std::uint8_t { None, Constant, ShL1, ShL2 };
 enum class Occlusion : std::uint8_t { None, Baked, Screen4, Screen8, Screen16 };  ///< the screen's rungs take baked occlusion too, where it is the darker
 enum class SpecularOcclusion : std::uint8_t { None, Ao, Lagarde };
 enum class DirectOcclusion : std::uint8_t { None, Specular };
+enum class Anisotropy : std::uint8_t { None, Tangents };         ///< of materials that are brushed
+enum class RoughDiffuse : std::uint8_t { None, OrenNayar };     ///< of materials with a diffuse roughness of their own
 enum class Path : std::uint8_t { Deferred, Forward };
 // Of the picture, not of the lighting equation (docs/post.md).
 enum class Antialiasing : std::uint8_t { None, Edge };
@@ -48,6 +50,8 @@ struct Quality {
   Occlusion occlusion = Occlusion::Baked;
   SpecularOcclusion specularOcclusion = SpecularOcclusion::Lagarde;
   DirectOcclusion directOcclusion = DirectOcclusion::None;
+  Anisotropy anisotropy = Anisotropy::Tangents;
+  RoughDiffuse roughDiffuse = RoughDiffuse::OrenNayar;
   /// Forward shades each surface where it is drawn, with every light: slow, unquantised, the reference of the deferred path. Rungs that the G-buffer cannot feed take it by themselves.
   Path path = Path::Deferred;
 

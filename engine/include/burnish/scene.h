@@ -169,11 +169,14 @@ struct Material {
   float attenuationDistance = 0;   ///< metres; 0 (or infinite): nothing is absorbed
   float ior = 0;                   ///< of glass, at least 1: it then gives F0 too; 0: follows from the substance's F0
 
-  // The G-buffer does not carry what follows: the deferred path draws isotropic lobes and Schlick's F of F0; the forward reference path uses it.
-  /// Strength, 0 (none) to 1, as KHR_materials_anisotropy has it: with alpha = roughness², alpha_t = mix(alpha, 1, strength²) along the direction t and
+  /// Strength of brushing, 0 (none) to 1, as KHR_materials_anisotropy has it: with alpha = roughness², alpha_t = mix(alpha, 1, strength²) along the direction t and
   /// alpha_b = alpha across it.
   float anisotropy = 0;
   float anisotropyRotation = 0;  ///< radians, any; counter-clockwise from the tangent: t = cos · tangent + sin · bitangent
+  /// Oren and Nayar's sigma, 0 to 1: the standard deviation of the angle of the diffuse surface's facets, radians (plaster 0.3, clay and moon dust 0.5). 0: as the diffuse term has it.
+  float diffuseRoughness = 0;
+
+  // The G-buffer does not carry what follows: the deferred path draws Schlick's F of F0; the forward reference path uses it.
   /// A named conductor's Substance::eta and k (above 0), for the exact conductor Fresnel equation, which then gives the reflectance at normal incidence too;
   /// both 0: not a named conductor.
   glm::vec3 conductorEta{0}, conductorK{0};
