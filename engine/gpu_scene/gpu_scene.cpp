@@ -62,9 +62,9 @@ MaterialData dataOf(const Material& m) {
     d.conductorEta[i] = finiteOr(m.conductorEta[i], 0, 1e4f, 0);
     d.conductorK[i] = finiteOr(m.conductorK[i], 0, 1e4f, 0);
   }
-  d.conductorEta.w = unit(m.anisotropy, 0);
-  // Within one turn, where sine and cosine keep their precision.
-  d.conductorK.w = std::isfinite(m.anisotropyRotation) ? std::remainder(m.anisotropyRotation, 6.2831853f) : 0;
+  const float strength = unit(m.anisotropy, 0), rotation = std::isfinite(m.anisotropyRotation) ? m.anisotropyRotation : 0;
+  d.conductorEta.w = strength * strength * std::cos(rotation);
+  d.conductorK.w = strength * strength * std::sin(rotation);
   d.glass = {unit(m.transmission, 0), finiteOr(m.thickness, 0, 1e9f, 0), m.ior >= 1 ? finiteOr(m.ior, 1, 100, 1.5f) : 0.0f, m.blend ? 1.0f : 0.0f};
   d.attenuation.w = unit(m.diffuseRoughness, 0);
   // Beer-Lambert: color = exp(-absorption · distance). A channel of no light at all stands for a millionth.

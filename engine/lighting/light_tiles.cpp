@@ -9,6 +9,9 @@
 namespace burnish::lighting {
 namespace {
 
+constexpr std::uint8_t kBrushed = 1, kRough = 2;
+std::uint8_t bitsOf(plan::Details d) { return std::uint8_t((d.brushed ? kBrushed : 0) | (d.rough ? kRough : 0)); }
+
 int bucketOf(std::uint32_t count) {
   for (int b : plan::kTileBuckets)
     if (std::uint32_t(b) >= count) return b;
@@ -158,7 +161,7 @@ void TileCuller::markDetail(const scene::ViewFrame& view, const DetailBox& box) 
   for (int ty = ty0; ty <= ty1; ++ty)
     for (int tx = tx0; tx <= tx1; ++tx) {
       const std::size_t i = std::size_t(ty * columns_ + tx);
-      if (slices_[i] > 0 && (meets(boxes_[i][0]) || (slices_[i] == 2 && meets(boxes_[i][1])))) detail_[i] = 1;
+      if (slices_[i] > 0 && (meets(boxes_[i][0]) || (slices_[i] == 2 && meets(boxes_[i][1])))) detail_[i] |= bitsOf(box.details);
     }
 }
 
@@ -185,11 +188,12 @@ void TileCuller::buildLists(std::span<const scene::LocalLight> lights) {
   lists_.groups.clear();
   lists_.entries.clear();
   std::vector<std::uint8_t> seen(lights.size() + 1);
-  const auto addGroup = [&](int bucket, bool detail) {
-    TileGroup g{bucket, int(lists_.tiles.size()), 0, detail};
+  const auto addGroup = [&](int bucket, plan::Details details) {
+    TileGroup g{bucket, int(lists_.tiles.size()), 0, details};
+    const std::uint8_t detail = bitsOf(details);
     for (std::size_t i = 0; i < tiles; ++i) {
-      if (slices_[i] == 0 || bool(detail_[i]) != detail) continue;
-      const int own = spots_[i] ? plan::kLoopSpots : detail && counts_[i] > 0 ? plan::kLoop : bucketOf(counts_[i]);
+      if (slices_[i] == 0 || detail_[i] != detail) continue;
+      const int own = spots_[i] ? plan::kLoopSpots : detail > 0 && counts_[i] > 0 ? plan::kLoop : bucketOf(counts_[i]);
       if (own != bucket) continue;
       const std::size_t first = lists_.entries.size();
       for (std::uint32_t k = 0; k < counts_[i]; ++k) {
@@ -203,10 +207,11 @@ void TileCuller::buildLists(std::span<const scene::LocalLight> lights) {
     g.count = int(lists_.tiles.size()) - g.first;
     if (g.count > 0) lists_.groups.push_back(g);
   };
-  for (int bucket : plan::kTileBuckets) addGroup(bucket, false);
-  addGroup(plan::kLoop, false);
-  addGroup(plan::kLoopSpots, false);
-  for (int bucket : plan::kDetailBuckets) addGroup(bucket, true);
+  for (int bucket : plan::kTileBuckets) addGroup(bucket, {false, false});
+  addGroup(plan::kLoop, {false, false});
+  addGroup(plan::kLoopSpots, {false, false});
+  for (plan::Details details : plan::kDetailClasses)
+    for (int bucket : plan::kDetailBuckets) addGroup(bucket, details);
   lists_.lightsInView = int(std::count(seen.begin(), seen.end(), 1));
   if (lists_.entries.empty()) lists_.entries.push_back(0);
 }

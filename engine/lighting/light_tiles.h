@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "plan/variants.h"
 #include "scene/visibility.h"
 
 namespace burnish::lighting {
@@ -27,11 +28,12 @@ using TileVertex = glm::ivec4;
 struct TileGroup {
   int bucket = 0;
   int first = 0, count = 0;  ///< in tiles
-  bool detail = false;       ///< the program that reads the target of details (plan::kDetailBuckets)
+  plan::Details details{false, false};  ///< of what the tiles may show: either reads the target of details (plan::kDetailBuckets)
 };
-/// A box along the world's axes, relative to the eye: middle and half extents.
+/// A box along the world's axes, relative to the eye (middle and half extents) around a surface with details.
 struct DetailBox {
   glm::vec3 center{0}, extent{0};
+  plan::Details details;
 };
 struct TileLists {
   std::vector<TileVertex> tiles;        ///< those with something to light, grouped; then those that show the background
@@ -66,7 +68,7 @@ class TileCuller {
   };
   std::vector<std::array<Box, 2>> boxes_;
   std::vector<std::uint8_t> slices_;  // 0: nothing is drawn, 1, 2
-  std::vector<std::uint8_t> detail_;
+  std::vector<std::uint8_t> detail_;  // of each tile: kBrushed, kRough
   std::vector<Pair> pairs_;
   std::vector<std::uint32_t> counts_, offsets_;
   std::vector<std::uint8_t> spots_;

@@ -81,7 +81,9 @@ std::vector<DetailBox> detailBoxes(const FrameContext& c) {
   const bool blend = c.plan.on("alpha_blend"), glass = c.plan.on("glass");
   for (const scene::VisibleInstance& v : c.visible) {
     const Material* m = c.scene.materials.get(v.instance->material);
-    if (m && plan::variantOf(*m, *v.mesh, details).detail() && !plan::drawnTransparent(*m, blend, glass)) boxes.push_back({v.center, v.extent});
+    if (!m || plan::drawnTransparent(*m, blend, glass)) continue;
+    const plan::GeometryVariant variant = plan::variantOf(*m, *v.mesh, details);
+    if (variant.detail()) boxes.push_back({v.center, v.extent, {variant.brushed, variant.rough}});
   }
   return boxes;
 }
@@ -90,13 +92,7 @@ std::vector<DetailBox> detailBoxes(const FrameContext& c) {
 
 Result<void> LightingPass::buildTiles(FrameContext& c) {
   if (auto read = readTileDepths(c); !read) return read;
-  std::span<const scene::LocalLight> lights(c.lights.local);
-  const std::size_t limit = std::min<std::size_t>(65534, std::size_t(c.device.caps.maxTextureBufferTexels) / LIGHT_TEXELS - 1);
-  if (lights.size() > limit) {
-    c.report.warn("lights", fmt::format("{} point and spot lights: {} is the limit, the rest is off", lights.size(), limit));
-    lights = lights.first(limit);
-  }
-  lists_ = &culler_.cull(c.view, tileDepths_, lights, detailBoxes(c));
+  lists_ = &culler_.cull(c.view, tileDepths_, c.lights.local, detailBoxes(c));
   c.stats.lightsInView += lists_->lightsInView;
   if (auto w = uploadLights(c); !w) return w;
   return uploadLists();
@@ -182,7 +178,7 @@ Result<void> LightingPass::shadeTiles(FrameContext& c) {
   bindTiles();
   for (const TileGroup& g : lists_->groups) {
     plan::LightingVariant lighting{int(c.lights.directional.size()), environment, occlusion, c.view.orthographic};
-    if (g.detail) lighting.details = plan::detailsOf(c.plan);
+    lighting.details = g.details;
     const std::string name = plan::lightingProgram(g.bucket, c.quality, lighting).name;
     const gl::Program* program = c.programs.find(name);
     if (!program) return fail("frame plan", fmt::format("program '{}' is not in it", name), "report this as a fault of the engine");

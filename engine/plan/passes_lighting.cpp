@@ -62,9 +62,12 @@ void addLighting(Builder& b) {
     if (local && s.facts.spots) b.use(pass, lightingProgram(kLoopSpots, s.quality, s.lighting(orthographic)));
     if (!s.detailTarget()) continue;
     LightingVariant detailed = s.lighting(orthographic);
-    detailed.details = s.details();
-    for (int bucket : kDetailBuckets)
-      if (bucket == 0 || (local && (bucket == kLoop || s.facts.spots))) b.use(pass, lightingProgram(bucket, s.quality, detailed));
+    for (Details d : kDetailClasses) {
+      if ((d.brushed && !s.on("anisotropy")) || (d.rough && !s.on("rough_diffuse"))) continue;
+      detailed.details = d;
+      for (int bucket : kDetailBuckets)
+        if (bucket == 0 || (local && (bucket == kLoop || s.facts.spots))) b.use(pass, lightingProgram(bucket, s.quality, detailed));
+    }
   }
 }
 

@@ -99,6 +99,7 @@ inline constexpr int kLoop = -1;       ///< the program that loops over long lis
 inline constexpr int kLoopSpots = -2;  ///< the program that loops over lists with spots among them
 /// Tiles that may show brushed or rough surfaces have programs of their own; what is unrolled is the empty list alone, for they are few.
 inline constexpr int kDetailBuckets[] = {0, kLoop, kLoopSpots};
+inline constexpr Details kDetailClasses[] = {{true, false}, {false, true}, {true, true}};
 ProgramPlan lightingProgram(int bucket, const Quality& quality, const LightingVariant& lighting);
 /// A transparent surface's program, and the one that finds its depth when layers are peeled.
 ProgramPlan transparentProgram(const TransparentVariant& variant, const Quality& quality, const LightingVariant& lighting);

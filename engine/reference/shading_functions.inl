@@ -1,7 +1,6 @@
 // GLSL's functions by their names; included once for each precision.
 using glm::abs;
 using glm::acos;
-using glm::atan;
 using glm::clamp;
 using glm::cos;
 using glm::cross;

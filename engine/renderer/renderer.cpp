@@ -9,6 +9,7 @@
 
 #include "gbuffer/geometry_pass.h"
 #include "gl/host_state.h"
+#include "interface/limits.h"
 #include "plan/plan.h"
 #include "renderer/passes.h"
 
@@ -38,6 +39,19 @@ float guessedExposure(const scene::LightSet& lights, const gpu_scene::GpuEnviron
   luminance += brightest;
   if (!(luminance > 0) || !std::isfinite(luminance)) return 1;
   return exposureOf(std::log2(luminance * 8));
+}
+
+/// What of the settings is out of range, and what the passes use instead.
+std::vector<std::string> heldSettings(const Quality& q) {
+  std::vector<std::string> texts;
+  const auto check = [&](const char* name, double value, double low, double high, double otherwise) {
+    if (value >= low && value <= high) return;
+    texts.push_back(fmt::format("Quality::{} is {}, out of {} to {}: {} is used", name, value, low, high, std::isfinite(value) ? std::clamp(value, low, high) : otherwise));
+  };
+  check("transparentLayers", q.transparentLayers, 1, 64, 1);
+  if (q.bloom != Bloom::None) check("bloomShare", double(q.bloomShare), 0, 1, 0);
+  if (q.occlusion > Occlusion::Baked) check("occlusionRadius", double(q.occlusionRadius), double(1e-3f), double(1e3f), 1);
+  return texts;
 }
 
 /// The GL state of one call: the host's is saved (HostState::Save) and the engine starts from defaults; at the end, on every path, the host finds what it was promised.
@@ -106,6 +120,14 @@ struct Renderer::Impl {
     if (const std::string rung = forwardOnlyRung(quality); !rung.empty() && plan.on("forward_reference"))
       report.warn("quality", fmt::format("{} needs what the G-buffer does not hold: drawn by the forward reference path (slow)", rung));
     for (const std::string& text : idleRungs(quality)) report.warn("quality", text);
+    for (const std::string& text : heldSettings(quality)) report.warn("quality", text);
+  }
+  /// Light lists hold indices of 16 bits, and a buffer texture all lights. The rest is off, on every path alike.
+  void boundLights(scene::LightSet& lights) {
+    const std::size_t most = std::min<std::size_t>(65534, std::size_t(device->caps.maxTextureBufferTexels) / LIGHT_TEXELS - 1);
+    if (lights.local.size() <= most) return;
+    report.warn("lights", fmt::format("{} point and spot lights reach into view: {} is the limit, those past it are off (give them shorter ranges)", lights.local.size(), most));
+    lights.local.resize(most);
   }
   PlanOptions planOptions(const Target& target, const RenderRequest& request) const {
     PlanOptions o;
@@ -209,7 +231,10 @@ Result<FrameStats> Renderer::render(const Scene& scene, std::span<const View> vi
   SceneState& state = m.stateOf(scene);
   state.derived.update(scene, &m.report);
   m.seen.resize(views.size());
-  for (std::size_t i = 0; i < views.size(); ++i) plan::look(scene, state.derived, views[i], target.size, quality, m.report, m.seen[i]);
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    plan::look(scene, state.derived, views[i], target.size, quality, m.report, m.seen[i]);
+    m.boundLights(m.seen[i].lights);
+  }
   m.plan = plan::planOf(scene, m.seen, quality, m.device->caps, m.planOptions(target, request), nullptr);
   for (plan::Seen& seen : m.seen) {
     if (!m.plan.on("directional_lights")) seen.lights.directional.clear();
@@ -247,6 +272,7 @@ Result<Id<Instance>> Renderer::pick(const Scene& scene, const View& view, glm::i
   Target target;
   target.size = targetSize;
   if (auto good = m.checkRequest(target, {&view, 1}); !good) return fail(good.error());
+  if (scene.instances.capacity() >= (1u << 24) - 1) return fail("pick", fmt::format("the scene has {} instances and ids are exact up to {}", scene.instances.capacity(), (1u << 24) - 2), "pick in a smaller scene");
   const scene::ViewFrame whole = scene::frameOf(view, targetSize);
   const glm::ivec2 local = pixel - glm::ivec2(whole.viewport.x, whole.viewport.y);
   if (local.x < 0 || local.y < 0 || local.x >= whole.viewport.z || local.y >= whole.viewport.w) return Id<Instance>{};

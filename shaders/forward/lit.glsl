@@ -27,7 +27,7 @@ Surface surfaceHere(Fetched f, vec3 toEye) {
   m.eta = material.conductorEta.rgb;
   m.k = material.conductorK.rgb;
 #if ANISOTROPIC
-  setTangent(m, brushedTangent(), material.conductorEta.w);
+  setWidth(m, brushedTangent(), brushedAlphaX(m.alpha));
 #endif
 #if ROUGH_DIFFUSE
   m.sigma = material.attenuation.w;

@@ -35,11 +35,12 @@ vec3 shadingNormal(vec3 mapped) {
 }
 
 #if ANISOTROPIC
-// The direction that the surface is brushed along; zero where it has no tangent.
+// The direction that the surface is brushed along, of any length; zero where it has no tangent.
 vec3 brushedTangent() {
   vec3 bitangent = cross(worldNormal, worldTangent.xyz) * worldTangent.w;
-  return worldTangent.xyz * cos(material.conductorK.w) + bitangent * sin(material.conductorK.w);
+  return worldTangent.xyz * material.conductorEta.w + bitangent * material.conductorK.w;
 }
+float brushedAlphaX(float alpha) { return alphaOfStrength2(alpha, length(vec2(material.conductorEta.w, material.conductorK.w))); }
 #endif
 
 Fetched fetchMaterial() {

@@ -30,8 +30,7 @@ void main() {
   outOcclusion = f.occlusion;
 #endif
 #if ANISOTROPIC
-  float alphaX = alphaOfStrength(alphaFromRoughness(f.roughness), material.conductorEta.w);
-  outDetail = packDetail(unpackNormal(outNormalRoughness.rgb), brushedTangent(), alphaX, ROUGH_DIFFUSE == 1 ? material.attenuation.w : 0.0);
+  outDetail = packDetail(unpackNormal(outNormalRoughness.rgb), brushedTangent(), brushedAlphaX(alphaFromRoughness(f.roughness)), ROUGH_DIFFUSE == 1 ? material.attenuation.w : 0.0);
 #elif ROUGH_DIFFUSE
   outDetail = vec4(0.0, 0.0, 0.0, material.attenuation.w);
 #endif

@@ -80,8 +80,8 @@ struct MaterialData {
   vec4 emission;    // rgb pre-exposure not applied, cd/m²; w alpha cutoff
   vec4 more;        // x metalness factor (metal-rough kept apart), y 1 when unlit, z 1 when vertex colour counts, w 1 when metal-rough is kept apart, 2 when there is no map B beside it
   vec4 uv[10];      // two rows for each of A, B, C, metal-rough, emissive: u' = dot(row.xyz, (u, v, 1)); row.w of the first: uv set
-  vec4 conductorEta;  // rgb index of a named conductor, 0 elsewhere; w anisotropy
-  vec4 conductorK;    // rgb its extinction; w anisotropy's rotation, radians
+  vec4 conductorEta;  // rgb index of a named conductor, 0 elsewhere; w anisotropy's strength² times the cosine of its rotation
+  vec4 conductorK;    // rgb its extinction; w the same times its sine
   vec4 glass;         // x transmission, y thickness (m, of the mesh), z index of refraction (0: from F0), w 1 when blended
   vec4 attenuation;   // rgb absorption inside, 1/m; w sigma of rough diffuse, radians
 };

@@ -5,10 +5,8 @@
 // so does what a lobe reflects at normal incidence, where it is an average over alpha.
 
 // Width along the tangent of a surface of that alpha: strength in [0, 1] widens it, alpha_t = mix(alpha, 1, strength²) (KHR_materials_anisotropy).
-FN real alphaOfStrength(real alpha, real strength) {
-  real s = unitClamp(strength);
-  return alpha + (R(1.0) - alpha) * s * s;
-}
+FN real alphaOfStrength2(real alpha, real strength2) { return alpha + (R(1.0) - alpha) * unitClamp(strength2); }
+FN real alphaOfStrength(real alpha, real strength) { return alphaOfStrength2(alpha, unitClamp(strength) * unitClamp(strength)); }
 
 // alpha toward a direction with components x, y along tangent and bitangent; between the two widths for any x, y.
 FN real alphaAlong(real x, real y, real alphaX, real alphaY) {
