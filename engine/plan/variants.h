@@ -65,6 +65,7 @@ struct LightingVariant {
   bool orthographic = false;
   int inPlace = -1;           ///< tone map (ToneMap's number) of what is written straight into the target; -1: radiance is written
   bool fog = false;           ///< lies before what is lit
+  bool local = false;         ///< point and spot lights, in programs that are no tile's
 };
 /// Fog is there and lit by the surroundings.
 bool fogAmbient(const Quality& quality, const LightingVariant& lighting);
