@@ -97,11 +97,7 @@ Result<FrameBuffers> FrameBuffers::create(gl::Device& device) {
   b.drawStride = (sizeof(DrawData) + align - 1) / align * align;
   auto frame = gl::Buffer::create(device, gl::BufferUse::Stream, sizeof(FrameData), nullptr, "frame data");
   if (!frame) return fail(frame.error());
-  auto draws = gl::Buffer::create(device, gl::BufferUse::Stream, b.drawStride, nullptr, "draw data");
-  if (!draws) return fail(draws.error());
   b.frame = std::move(*frame);
-  b.draws = std::move(*draws);
-  b.none = gl::VertexArray::create(device, {}, {}, 0, "no vertices");
   return b;
 }
 
@@ -121,7 +117,7 @@ Result<void> FrameContext::drawScreen(std::string_view name) const {
   const gl::Program* program = programs.find(name);
   if (!program) return fail("frame plan", fmt::format("program '{}' is not in it", name), "report this as a fault of the engine");
   program->use();
-  buffers.none.bind();
+  buffers.noVertices(device).bind();
   device.gl.DrawArrays(GL_TRIANGLES, 0, 3);
   return {};
 }
@@ -197,6 +193,11 @@ Result<void> uploadDraws(FrameContext& c) {
     d.normal[1].w = v.mesh->colors.empty() ? 0 : 1;
     std::memcpy(bytes.data() + i * c.buffers.drawStride, &d, sizeof d);
   }
+  if (!c.buffers.draws) {
+    auto made = gl::Buffer::create(c.device, gl::BufferUse::Stream, bytes.size(), nullptr, "draw data");
+    if (!made) return fail(made.error());
+    c.buffers.draws = std::move(*made);
+  }
   return c.buffers.draws.write(bytes);
 }
 
@@ -218,6 +219,11 @@ const gl::VertexArray& FrameBuffers::array(gl::Device& device, bool general, boo
   gl::VertexArray& a = arrays[general][instanced];
   if (!a) a = makeArray(device, general, instanced);
   return a;
+}
+
+const gl::VertexArray& FrameBuffers::noVertices(gl::Device& device) {
+  if (!none_) none_ = gl::VertexArray::create(device, {}, {}, 0, "no vertices");
+  return none_;
 }
 
 namespace {

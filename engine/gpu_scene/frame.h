@@ -56,18 +56,19 @@ class ProgramSet {
 };
 gl::ProgramSource sourceOf(const ProgramPlan& plan);
 
-/// Buffers that each view fills anew.
+/// Buffers that each view fills anew. Those that not every plan wants are made on first use.
 struct FrameBuffers {
   gl::Buffer frame, draws;
-  gl::VertexArray none;
   std::size_t drawStride = 256;
   static Result<FrameBuffers> create(gl::Device& device);
   /// Vertex formats of the geometry programs, made when first asked for.
   const gl::VertexArray& array(gl::Device& device, bool general, bool instanced);
+  /// For programs that read no vertices.
+  const gl::VertexArray& noVertices(gl::Device& device);
 
  private:
   static gl::VertexArray makeArray(gl::Device& device, bool general, bool instanced);
-  gl::VertexArray arrays[2][2];
+  gl::VertexArray arrays[2][2], none_;
 };
 /// The vertex binding that holds DrawData in instanced programs.
 inline constexpr GLuint kDrawBinding = 2;

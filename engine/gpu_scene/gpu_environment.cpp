@@ -50,28 +50,39 @@ Result<gl::Texture> uploadCube(gl::Device& device, const prefilter::EnvironmentL
   return cube;
 }
 
+Result<gl::Texture> uploadPicture(gl::Device& device, const Image& picture) {
+  auto sky = gl::Texture::create(device, {.format = GL_RGBA16F, .width = picture.width, .height = picture.height}, "environment picture");
+  if (!sky) return sky;
+  sky->upload(0, picture.data.data(), 0, GL_RGB, GL_FLOAT);
+  sky->setFilter(GL_LINEAR, GL_LINEAR);
+  sky->setWrap(GL_REPEAT, GL_CLAMP_TO_EDGE);
+  return sky;
+}
+
 }  // namespace
 
-Result<const GpuEnvironment*> GpuScene::environment(const Scene& scene, Report& report) {
+Result<const GpuEnvironment*> GpuScene::environment(const Scene& scene, EnvironmentWants wants, Report& report) {
   const Environment& e = scene.environment;
   // Colour and size take part, so that a change without a new revision is seen in the common cases.
   const std::uint64_t revision = e.revision * 1000003u + std::uint64_t(e.map.width) * 31u + std::uint64_t(e.map.height) + std::hash<float>{}(e.color.r) * 7u + std::hash<float>{}(e.color.g) * 11u +
                                  std::hash<float>{}(e.color.b) * 13u + 1;
-  if (environment_ && environmentRevision_ == revision) return environment_.get();
+  const bool current = environment_ && environmentRevision_ == revision;
+  if (current && (!wants.cube || environment_->cube) && (!wants.picture || environment_->sky)) return environment_.get();
   if (!e.map.empty() && (e.map.type != PixelType::F32 || e.map.channels < 3 || e.map.data.size() != e.map.byteSize()))
     return fail("environment", "the map is not a float picture with 3 or 4 channels", "load it with loadEnvironment");
   const Image picture = mended(e, report);
   const prefilter::EnvironmentLight light = prefilter::prefilterEnvironment(picture, e.map.empty() ? 16 : 256);
   auto made = std::make_unique<GpuEnvironment>();
-  auto cube = uploadCube(device_, light);
-  if (!cube) return fail(cube.error());
-  made->cube = std::move(*cube);
-  auto sky = gl::Texture::create(device_, {.format = GL_RGBA16F, .width = picture.width, .height = picture.height}, "environment picture");
-  if (!sky) return fail(sky.error());
-  sky->upload(0, picture.data.data(), 0, GL_RGB, GL_FLOAT);
-  sky->setFilter(GL_LINEAR, GL_LINEAR);
-  sky->setWrap(GL_REPEAT, GL_CLAMP_TO_EDGE);
-  made->sky = std::move(*sky);
+  if (wants.cube) {
+    auto cube = uploadCube(device_, light);
+    if (!cube) return fail(cube.error());
+    made->cube = std::move(*cube);
+  }
+  if (wants.picture) {
+    auto sky = uploadPicture(device_, picture);
+    if (!sky) return fail(sky.error());
+    made->sky = std::move(*sky);
+  }
   made->irradiance = light.irradiance;
   made->meanLuminance = light.meanLuminance;
   made->lastLevel = float(light.levels.size() - 1);

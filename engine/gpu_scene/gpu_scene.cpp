@@ -86,13 +86,10 @@ bool GpuScene::admit(std::uint64_t bytes) {
   return true;
 }
 
-Result<void> GpuScene::beginFrame(const Scene& scene, std::uint64_t budget, Report& report) {
+void GpuScene::beginFrame(const Scene& scene, std::uint64_t budget) {
   budget_ = budget;
   uploaded_ = pending_ = 0;
-  if (!defaults_[0])
-    if (auto made = makeDefaults(); !made) return made;
   sweep(scene);
-  return updateMaterials(scene, report);
 }
 
 // Frees what no row stands for any more.
@@ -128,7 +125,9 @@ Result<void> GpuScene::makeDefaults() {
   return {};
 }
 
-Result<void> GpuScene::updateMaterials(const Scene& scene, Report&) {
+Result<void> GpuScene::updateMaterials(const Scene& scene) {
+  if (!defaults_[0])
+    if (auto made = makeDefaults(); !made) return made;
   if (scene.materials.revision() == materialsRevision_) return {};
   materialStride_ = (sizeof(MaterialData) + std::size_t(device_.caps.uniformAlignment) - 1) / std::size_t(device_.caps.uniformAlignment) * std::size_t(device_.caps.uniformAlignment);
   // Row 0 is the default material.

@@ -36,11 +36,16 @@ struct MaterialBinding {
   std::size_t offset = 0;           ///< of its MaterialData in materials()
 };
 
-/// Environment textures and coefficients, made from the scene's environment on first use.
+/// Environment textures and coefficients, made from the scene's environment on first use. A texture is empty until it is wanted.
 struct GpuEnvironment {
   gl::Texture cube, sky;
   std::array<glm::vec3, 9> irradiance{};
   float meanLuminance = 0, lastLevel = 0;
+};
+
+/// The textures of the environment that a plan reads.
+struct EnvironmentWants {
+  bool cube = false, picture = false;
 };
 
 class GpuScene {
@@ -48,14 +53,16 @@ class GpuScene {
   explicit GpuScene(gl::Device& device) : device_(device) {}
 
   /// Call once a frame before anything else. budget: bytes that may be uploaded in this frame, 0: no limit (one resource always goes through).
-  Result<void> beginFrame(const Scene& scene, std::uint64_t budget, Report& report);
+  void beginFrame(const Scene& scene, std::uint64_t budget);
+  /// Brings materials() up to date; before mesh() and material(), in frames that draw instances.
+  Result<void> updateMaterials(const Scene& scene);
   /// nullptr while it waits for its turn or cannot be drawn.
   /// tangents: the material has a normal map; they are made where the mesh brings none (MikkTSpace, which may split vertices).
   const GpuMesh* mesh(const Scene& scene, Id<Mesh> id, bool tangents, Report& report);
   const MaterialBinding& material(const Scene& scene, Id<Material> id, Report& report);
   [[nodiscard]] const gl::Buffer& materials() const { return materialBuffer_; }
   /// Only called when the plan lights by it or shows it.
-  Result<const GpuEnvironment*> environment(const Scene& scene, Report& report);
+  Result<const GpuEnvironment*> environment(const Scene& scene, EnvironmentWants wants, Report& report);
 
   [[nodiscard]] Deformation& deformation() { return deformation_; }
   /// Whether so many bytes may be uploaded in this frame; they count as uploaded then.
@@ -82,7 +89,6 @@ class GpuScene {
     bool complete = false;  // every texture has arrived
   };
   void sweep(const Scene& scene);
-  Result<void> updateMaterials(const Scene& scene, Report& report);
   const TextureRow* texture(const Scene& scene, Id<Texture> id, Report& report);
   Result<gl::Texture> uploadTexture(const Texture& texture, const Texture* occlusion);
   const TextureRow* packedTexture(const Scene& scene, Id<Texture> normal, Id<Texture> occlusion, Report& report);

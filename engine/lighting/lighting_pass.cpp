@@ -11,22 +11,19 @@ namespace burnish::lighting {
 
 using gpu_scene::FrameContext;
 
-Result<std::unique_ptr<LightingPass>> LightingPass::create(gl::Device& device) {
-  std::unique_ptr<LightingPass> pass(new LightingPass(device));
-  auto tiles = gl::Buffer::create(device, gl::BufferUse::Stream, sizeof(TileVertex), nullptr, "tiles");
-  auto lights = gl::TextureBuffer::create(device, GL_RGBA32F, gl::BufferUse::Stream, 16 * LIGHT_TEXELS, nullptr, "lights");
-  auto entries = gl::TextureBuffer::create(device, GL_R16UI, gl::BufferUse::Stream, 4, nullptr, "light lists");
-  if (!tiles) return fail(tiles.error());
-  if (!lights) return fail(lights.error());
-  if (!entries) return fail(entries.error());
-  pass->tiles_ = std::move(*tiles);
-  pass->lights_ = std::move(*lights);
-  pass->entries_ = std::move(*entries);
-  const gl::VertexAttribute attribute{0, 4, GL_INT, false, true, 0, 0};
-  const gl::VertexBinding binding{pass->tiles_.id(), 0, sizeof(TileVertex), 0};
-  pass->tileArray_ = gl::VertexArray::create(device, {&attribute, 1}, {&binding, 1}, 0, "tiles");
-  return pass;
+namespace {
+
+// Fills a buffer texture that is made when it is first filled.
+Result<void> fill(gl::Device& device, gl::TextureBuffer& buffer, GLenum format, std::span<const std::byte> bytes, std::string_view label) {
+  if (!buffer) {
+    auto made = gl::TextureBuffer::create(device, format, gl::BufferUse::Stream, bytes.size(), nullptr, label);
+    if (!made) return fail(made.error());
+    buffer = std::move(*made);
+  }
+  return buffer.write(bytes);
 }
+
+}  // namespace
 
 Result<void> LightingPass::readTileDepths(FrameContext& c) {
   const glm::ivec4 v = c.view.viewport;
@@ -63,12 +60,22 @@ Result<void> LightingPass::uploadLights(FrameContext& c) {
     t[2] = glm::vec4(l.axis, l.spotScale);
     t[3] = glm::vec4(l.spotOffset, 0, 0, 0);
   }
-  return lights_.write(std::as_bytes(std::span(texels)));
+  return fill(device_, lights_, GL_RGBA32F, std::as_bytes(std::span(texels)), "lights");
 }
 
-Result<void> LightingPass::uploadLists() {
-  if (auto w = entries_.write(std::as_bytes(std::span(lists_->entries))); !w) return w;
-  return tiles_.write(std::as_bytes(std::span(lists_->tiles)));
+// entries: the tiles' lists of local lights, too.
+Result<void> LightingPass::uploadLists(bool entries) {
+  if (entries)
+    if (auto w = fill(device_, entries_, GL_R16UI, std::as_bytes(std::span(lists_->entries)), "light lists"); !w) return w;
+  const std::span<const std::byte> bytes = std::as_bytes(std::span(lists_->tiles));
+  if (!tiles_) {
+    auto made = gl::Buffer::create(device_, gl::BufferUse::Stream, bytes.size(), nullptr, "tiles");
+    if (!made) return fail(made.error());
+    tiles_ = std::move(*made);
+    const gl::VertexAttribute attribute{0, 4, GL_INT, false, true, 0, 0};
+    tileArray_ = gl::VertexArray::create(device_, {&attribute, 1}, {}, 0, "tiles");
+  }
+  return tiles_.write(bytes);
 }
 
 namespace {
@@ -94,8 +101,10 @@ Result<void> LightingPass::buildTiles(FrameContext& c) {
   if (auto read = readTileDepths(c); !read) return read;
   lists_ = &culler_.cull(c.view, tileDepths_, c.lights.local, detailBoxes(c));
   c.stats.lightsInView += lists_->lightsInView;
-  if (auto w = uploadLights(c); !w) return w;
-  return uploadLists();
+  const bool local = c.plan.on("local_lights");
+  if (local)
+    if (auto w = uploadLights(c); !w) return w;
+  return uploadLists(local);
 }
 
 // Whole tiles, so that no point's centre falls outside and is clipped; the scissor keeps the view's rectangle.
@@ -147,18 +156,20 @@ Result<void> LightingPass::bindSurroundings(FrameContext& c, int environmentUnit
 }
 
 Result<void> LightingPass::bindForward(FrameContext& c) {
-  if (auto done = uploadLights(c); !done) return done;
+  if (c.plan.on("local_lights"))
+    if (auto done = uploadLights(c); !done) return done;
   c.stats.lightsInView += int(c.lights.local.size());
   return bindLights(c);
 }
 
 Result<void> LightingPass::bindLights(FrameContext& c) {
   c.device.gl.BindSamplers(0, 10, nullptr);
-  lights_.bind(UNIT_LIGHTS);
+  if (c.plan.on("local_lights")) lights_.bind(UNIT_LIGHTS);
   return bindSurroundings(c, UNIT_FORWARD_ENVIRONMENT);
 }
 
 Result<void> LightingPass::shadeTiles(FrameContext& c) {
+  if (lists_->groups.empty()) return {};
   const GladGLContext& gl = c.device.gl;
   auto framebuffer = c.lightFramebuffer(false);
   if (!framebuffer) return fail(framebuffer.error());
@@ -173,8 +184,11 @@ Result<void> LightingPass::shadeTiles(FrameContext& c) {
   if (occlusion) c.targets.texture(screen ? "occlusion" : "gbuffer_c")->bind(UNIT_GBUFFER_C);
   if (const gl::Texture* detail = c.targets.texture("gbuffer_d")) detail->bind(UNIT_GBUFFER_D);
   if (auto bound = bindSurroundings(c, UNIT_ENVIRONMENT); !bound) return bound;
-  lights_.bind(UNIT_LIGHTS);
-  entries_.bind(UNIT_LIGHT_LISTS);
+  // The group without lights comes first and reads none.
+  if (lists_->groups.back().bucket != 0) {
+    lights_.bind(UNIT_LIGHTS);
+    entries_.bind(UNIT_LIGHT_LISTS);
+  }
   bindTiles();
   for (const TileGroup& g : lists_->groups) {
     plan::LightingVariant lighting{int(c.lights.directional.size()), environment, occlusion, c.view.orthographic};
@@ -227,6 +241,9 @@ Result<void> LightingPass::denoiseOcclusion(FrameContext& c) {
 }
 
 Result<void> LightingPass::drawBackground(FrameContext& c) {
+  // Only where the tiles' depths say that something shows.
+  const bool tiles = c.plan.pass("tiles");
+  if (tiles && lists_->background.count == 0) return {};
   const GladGLContext& gl = c.device.gl;
   const gl::Texture* depth = c.targets.texture("depth");
   auto framebuffer = c.lightFramebuffer(true);
@@ -242,13 +259,13 @@ Result<void> LightingPass::drawBackground(FrameContext& c) {
     gl.DepthMask(GL_FALSE);
   }
   gl.BindSamplers(0, 10, nullptr);
-  if (c.environment) c.environment->sky.bind(UNIT_ENVIRONMENT);
+  const std::vector<std::string>& reads = c.plan.pass("background")->reads;
+  if (std::find(reads.begin(), reads.end(), "environment") != reads.end()) c.environment->sky.bind(UNIT_ENVIRONMENT);
   const char* name = c.view.orthographic ? "background+ortho" : "background";
   Result<void> drawn;
-  if (!c.plan.pass("tiles")) {
+  if (!tiles) {
     drawn = c.drawScreen(name);
-  } else if (const gl::Program* program = c.programs.find(name); program && lists_->background.count > 0) {
-    // Only where the tiles' depths say that something shows.
+  } else if (const gl::Program* program = c.programs.find(name)) {
     widenViewport(c);
     program->use();
     bindTiles();

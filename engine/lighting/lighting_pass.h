@@ -8,7 +8,7 @@ namespace burnish::lighting {
 
 class LightingPass {
  public:
-  static Result<std::unique_ptr<LightingPass>> create(gl::Device& device);
+  explicit LightingPass(gl::Device& device) : device_(device) {}
   /// Pass "tiles": depth bounds of each tile, light lists, uploads.
   Result<void> buildTiles(gpu_scene::FrameContext& context);
   /// Pass "lighting": shades the tiles that hold surfaces into the light buffer.
@@ -27,10 +27,9 @@ class LightingPass {
   Result<void> drawAllTiles(gpu_scene::FrameContext& context);
 
  private:
-  explicit LightingPass(gl::Device& device) : device_(device) {}
   Result<void> readTileDepths(gpu_scene::FrameContext& context);
   Result<void> uploadLights(gpu_scene::FrameContext& context);
-  Result<void> uploadLists();
+  Result<void> uploadLists(bool entries);
   /// The environment and the lobe's table, where the quality reads them.
   Result<void> bindSurroundings(gpu_scene::FrameContext& context, int environmentUnit);
   Result<GLuint> dfgTable(const Quality& quality);
@@ -38,6 +37,7 @@ class LightingPass {
   static void widenViewport(const gpu_scene::FrameContext& context);
 
   gl::Device& device_;
+  // GL objects are made when a plan first wants them.
   TileCuller culler_;
   const TileLists* lists_ = nullptr;
   std::vector<float> depth_;

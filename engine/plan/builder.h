@@ -39,6 +39,7 @@ void addForward(Builder& b);
 void addEmissive(Builder& b);
 // passes_lighting.cpp
 void addTiles(Builder& b);
+void addLightClear(Builder& b);
 void addOcclusion(Builder& b);
 void addLighting(Builder& b);
 void addBackground(Builder& b);

@@ -16,11 +16,6 @@ Verdict deformation(const Situation& s) { return sceneCalls(s, Call::Deformation
 Verdict twoSided(const Situation& s) { return sceneCalls(s, Call::TwoSided, "a two-sided material would call for it"); }
 Verdict alphaTest(const Situation& s) { return sceneCalls(s, Call::AlphaTest, "a material with an alpha test would call for it"); }
 
-Verdict bakedOcclusion(const Situation& s) {
-  return provided(sceneCalls(s, Call::BakedOcclusion, s.quality.occlusion == Occlusion::None ? "the quality turns it off" : "a material with an occlusion map would call for it"),
-                  s.final() || s.options.debugView == DebugView::Occlusion, kNotShown);
-}
-
 Verdict anisotropy(const Situation& s) {
   const char* otherwise = s.quality.anisotropy == Anisotropy::None ? "the quality turns it off" : drawsBrushed(s.quality) ? "a material with anisotropy would call for it" : "the specular model has one width";
   return provided(sceneCalls(s, Call::Anisotropy, otherwise), s.final() || s.options.debugView == DebugView::Anisotropy, kNotShown);
@@ -64,6 +59,17 @@ Verdict environmentLighting(const Situation& s) {
 }
 Verdict background(const Situation& s) { return provided(sceneCalls(s, Call::Background, "an environment shown as background would call for it"), s.final(), kNotShown); }
 
+/// Occlusion is taken from the light of the surroundings, and from that of lights where the quality says so.
+constexpr std::string_view kHoldsNothingBack = "no light that it holds back: it takes from the surroundings'";
+bool holdsBack(const Situation& s) {
+  const bool lights = s.quality.directOcclusion != DirectOcclusion::None && (s.on("directional_lights") || s.on("local_lights"));
+  return s.options.debugView == DebugView::Occlusion || s.on("environment_lighting") || lights;
+}
+Verdict bakedOcclusion(const Situation& s) {
+  const Verdict called = sceneCalls(s, Call::BakedOcclusion, s.quality.occlusion == Occlusion::None ? "the quality turns it off" : "a material with an occlusion map would call for it");
+  return provided(provided(called, s.final() || s.options.debugView == DebugView::Occlusion, kNotShown), holdsBack(s), kHoldsNothingBack);
+}
+
 Verdict forwardReference(const Situation& s) {
   const std::string rung = forwardOnlyRung(s.quality);
   if (s.quality.path != Path::Forward && rung.empty()) return {false, "path=forward or a forward-only rung would call for it"};
@@ -76,9 +82,8 @@ Verdict screenOcclusion(const Situation& s) {
   if (samples.slices == 0) return {false, "occlusion=screen-4, screen-8 or screen-16 would call for it"};
   if (!s.on("geometry")) return {false, "nothing to shade"};
   if (s.forward()) return {false, "the forward reference path has no G-buffer to find it in"};
-  const bool lights = s.quality.directOcclusion != DirectOcclusion::None && (s.on("directional_lights") || s.on("local_lights"));
   if (s.options.debugView != DebugView::Occlusion && !s.final()) return {false, std::string(kNotShown)};
-  if (s.options.debugView != DebugView::Occlusion && !s.on("environment_lighting") && !lights) return {false, "no light that it holds back: it takes from the surroundings'"};
+  if (!holdsBack(s)) return {false, std::string(kHoldsNothingBack)};
   return {true, fmt::format("occlusion=screen-{}", 2 * samples.slices * samples.steps)};
 }
 Verdict autoExposure(const Situation& s) {
@@ -123,7 +128,6 @@ constexpr EffectRow kRows[] = {
     {{"deformation", CalledBy::Scene, "skins and morph targets"}, deformation, false},
     {{"two_sided", CalledBy::Scene, "surfaces seen from both sides"}, twoSided, false},
     {{"alpha_test", CalledBy::Scene, "holes where opacity is under the cutoff"}, alphaTest, false},
-    {{"baked_occlusion", CalledBy::Scene, "occlusion maps"}, bakedOcclusion, false},
     {{"anisotropy", CalledBy::Scene, "brushed surfaces: highlights of two widths"}, anisotropy, false},
     {{"rough_diffuse", CalledBy::Scene, "surfaces with a diffuse roughness of their own"}, roughDiffuse, false},
     {{"emissive", CalledBy::Scene, "surfaces that emit"}, emissive},
@@ -134,6 +138,7 @@ constexpr EffectRow kRows[] = {
     {{"local_lights", CalledBy::Scene, "point and spot lights"}, localLights, false},
     {{"environment_lighting", CalledBy::Scene, "light of the surroundings"}, environmentLighting, false},
     {{"background", CalledBy::Scene, "the surroundings where nothing was drawn"}, background, false},
+    {{"baked_occlusion", CalledBy::Scene, "occlusion maps"}, bakedOcclusion, false},
     {{"forward_reference", CalledBy::Setting, "surfaces shaded where they are drawn, unquantised"}, forwardReference},
     {{"screen_occlusion", CalledBy::Setting, "ambient occlusion found on the screen"}, screenOcclusion, false},
     {{"auto_exposure", CalledBy::Setting, "exposure metered from the picture"}, autoExposure},

@@ -20,7 +20,8 @@ void addGBuffer(Builder& b) {
   if (s.hasDepth()) b.target("depth", "DEPTH_COMPONENT32F", {"geometry", "host_depth_in"});
   if (!s.hasDepth() || s.forward()) return;
   const bool occlusion = s.on("baked_occlusion");
-  PassPlan& pass = b.pass("gbuffer", {"geometry", "host_depth_in", "two_sided", "alpha_test", "baked_occlusion", "anisotropy", "rough_diffuse"}, {"meshes", "materials"}, {"gbuffer_a", "gbuffer_b"});
+  PassPlan& pass = b.pass("gbuffer", {"geometry", "host_depth_in", "two_sided", "alpha_test", "baked_occlusion", "anisotropy", "rough_diffuse"},
+                          s.on("geometry") ? std::vector<std::string>{"meshes", "materials"} : std::vector<std::string>{}, {"gbuffer_a", "gbuffer_b"});
   b.target("gbuffer_a", "RGBA8", {"geometry", "host_depth_in"});
   b.target("gbuffer_b", "RGBA8", {"geometry", "host_depth_in"});
   if (occlusion) {
@@ -40,7 +41,8 @@ void addGBuffer(Builder& b) {
 void addForward(Builder& b) {
   const Situation& s = b.s;
   if (!s.forward()) return;
-  PassPlan& pass = b.pass("forward", {"forward_reference", "fog", "anisotropy", "rough_diffuse"}, {"meshes", "materials", "lights"}, {"light", "depth"});
+  PassPlan& pass = b.pass("forward", {"forward_reference", "fog", "anisotropy", "rough_diffuse"}, {"meshes", "materials"}, {"light", "depth"});
+  if (s.on("local_lights")) pass.reads.emplace_back("lights");
   const bool environment = s.on("environment_lighting");
   if (needsCube(s.quality, environment)) pass.reads.push_back("environment cube");
   if (needsDfg(s.quality, environment)) pass.reads.push_back("dfg");

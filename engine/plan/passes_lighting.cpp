@@ -4,13 +4,19 @@
 #include "plan/builder.h"
 
 namespace burnish::plan {
+namespace {
+
+const std::initializer_list<std::string_view> kLightOwners = {"tone_mapping", "linear_output", "debug_view", "directional_lights", "local_lights", "environment_lighting", "background", "emissive", "alpha_blend", "glass", "fog"};
+
+}  // namespace
 
 void addTiles(Builder& b) {
   const Situation& s = b.s;
   // Linear output keeps radiance in floats; a picture for a display is pre-exposed, so that half floats suffice.
-  if (s.final() && !s.developsInPlace()) b.target("light", s.options.output == Output::Linear ? "RGBA32F" : "RGBA16F", {"tone_mapping", "linear_output", "debug_view", "directional_lights", "local_lights", "environment_lighting", "background", "emissive", "alpha_blend", "glass", "fog"});
+  if (s.final() && !s.developsInPlace()) b.target("light", s.options.output == Output::Linear ? "RGBA32F" : "RGBA16F", kLightOwners);
   if (!s.hasTiles()) return;
-  PassPlan& pass = b.pass("tiles", {"directional_lights", "local_lights", "environment_lighting", "screen_occlusion", "debug_view"}, {"depth", "lights"}, {"light lists"});
+  PassPlan& pass = b.pass("tiles", {"directional_lights", "local_lights", "environment_lighting", "screen_occlusion", "debug_view"}, {"depth"}, {"light lists"});
+  if (s.on("local_lights")) pass.writes.emplace_back("lights");
   if (!s.reducesDepth()) return;
   b.target("tile_depth", "RGBA32F", {"directional_lights", "local_lights", "environment_lighting", "screen_occlusion", "debug_view"}, (s.options.size + 15) / 16);
   pass.writes.push_back("tile_depth");
@@ -34,12 +40,20 @@ void addOcclusion(Builder& b) {
     b.use(denoise, {o ? "occlusion_denoise+ortho" : "occlusion_denoise", "lighting/screen_tile.vert", "lighting/occlusion_denoise.frag", {define("BAKED", baked), define("ORTHOGRAPHIC", o)}});
 }
 
+// Where no pass covers the whole light buffer, it starts black. The forward reference clears it by itself.
+void addLightClear(Builder& b) {
+  const Situation& s = b.s;
+  if (!s.final() || s.developsInPlace() || s.forward() || s.fillsBackground()) return;
+  b.pass("light_clear", kLightOwners, {}, {"light"});
+}
+
 void addLighting(Builder& b) {
   const Situation& s = b.s;
   if (!s.hasDepth() || s.forward() || !s.lit() || !s.final()) return;
   const bool local = s.on("local_lights"), environment = s.on("environment_lighting");
   const char* into = s.developsInPlace() ? "target" : "light";
-  PassPlan& pass = b.pass("lighting", {"directional_lights", "local_lights", "environment_lighting", "fog"}, {"gbuffer_a", "gbuffer_b", "depth", "lights", "light lists"}, {into});
+  PassPlan& pass = b.pass("lighting", {"directional_lights", "local_lights", "environment_lighting", "fog"}, {"gbuffer_a", "gbuffer_b", "depth", "light lists"}, {into});
+  if (local) pass.reads.emplace_back("lights");
   if (s.developsInPlace()) pass.effects.emplace_back("tone_mapping");
   if (s.on("screen_occlusion"))
     pass.reads.push_back("occlusion");
@@ -75,11 +89,12 @@ void addBackground(Builder& b) {
   const Situation& s = b.s;
   if (!s.fillsBackground()) return;
   const bool inPlace = s.developsInPlace();
-  PassPlan& pass = b.pass("background", {"background", "fog"}, {"environment"}, {inPlace ? "target" : "light"});
+  PassPlan& pass = b.pass("background", {"background", "fog"}, {}, {inPlace ? "target" : "light"});
   if (inPlace) pass.effects.emplace_back("tone_mapping");
   if (s.hasDepth()) pass.reads.push_back("depth");
   if (s.hasTiles()) pass.reads.push_back("light lists");
-  const int map = !s.on("background") ? 2 : s.scene.environment.map.empty() ? 0 : 1;
+  const int map = !s.on("background") || !s.scene.environment.background ? 2 : s.scene.environment.map.empty() ? 0 : 1;
+  if (map == 1) pass.reads.emplace_back("environment");
   for (bool o : s.projections()) {
     const LightingVariant lighting = s.lighting(o);
     ProgramPlan p{o ? "background+ortho" : "background", s.hasTiles() ? "lighting/background_tile.vert" : "post/screen.vert", "lighting/sky.frag", {define("FOG", lighting.fog), define("IN_PLACE", inPlace), define("ORTHOGRAPHIC", o), define("SKY_MAP", map), define("TONEMAP", inPlace ? int(s.quality.toneMap) : 0)}};

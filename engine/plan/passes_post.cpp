@@ -45,6 +45,34 @@ void addEdgeAntialiasing(Builder& b) {
   b.useScreen(b.pass("edge_antialiasing", {"edge_antialiasing"}, {"display"}, {"target"}), "edge_antialiasing", "post/edge_antialiasing.frag", {define("HOST_DEPTH", b.s.on("host_depth_in"))});
 }
 
+namespace {
+
+/// The targets that the debug view shows.
+std::vector<std::string> shownBy(const Situation& s) {
+  if (s.options.debugView == DebugView::Nonfinite) return {"light"};
+  if (!s.hasDepth()) return {};
+  switch (s.options.debugView) {
+    case DebugView::Albedo:
+    case DebugView::Substance: return {"gbuffer_a", "depth"};
+    case DebugView::Normal:
+    case DebugView::Roughness: return {"gbuffer_b", "depth"};
+    case DebugView::Occlusion:
+      if (s.on("screen_occlusion")) return {"occlusion", "depth"};
+      if (s.on("baked_occlusion")) return {"gbuffer_c", "depth"};
+      break;
+    case DebugView::Anisotropy:
+      if (s.detailTarget()) return {"gbuffer_a", "gbuffer_b", "gbuffer_d", "depth"};
+      break;
+    case DebugView::DiffuseRoughness:
+      if (s.detailTarget()) return {"gbuffer_d", "depth"};
+      break;
+    default: break;
+  }
+  return {"depth"};
+}
+
+}  // namespace
+
 void addDebugView(Builder& b) {
   const Situation& s = b.s;
   if (!s.on("debug_view")) return;
@@ -52,10 +80,7 @@ void addDebugView(Builder& b) {
     b.use(b.pass("debug_view", {"debug_view"}, {"light lists"}, {"target"}), {"debug_lights", "post/lights.vert", "post/lights.frag", {}});
     return;
   }
-  const bool nonfinite = s.options.debugView == DebugView::Nonfinite;
-  PassPlan& pass = b.pass("debug_view", {"debug_view"}, nonfinite ? std::vector<std::string>{"light"} : std::vector<std::string>{"gbuffer_a", "gbuffer_b", "depth"}, {"target"});
-  if (s.on("screen_occlusion")) pass.reads.push_back("occlusion");
-  if (s.detailTarget()) pass.reads.push_back("gbuffer_d");
+  PassPlan& pass = b.pass("debug_view", {"debug_view"}, shownBy(s), {"target"});
   for (bool o : s.projections())
     b.useScreen(pass, o ? "debug_view+ortho" : "debug_view", "post/debug.frag",
                 {define("DETAIL", s.detailTarget()), define("GEOMETRY", s.hasDepth()), define("OCCLUSION", s.on("baked_occlusion") || s.on("screen_occlusion")), define("ORTHOGRAPHIC", o), define("VIEW", int(s.options.debugView))});

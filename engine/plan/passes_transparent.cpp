@@ -16,7 +16,8 @@ void addTransparent(Builder& b) {
   const Situation& s = b.s;
   if (!s.hasDepth() || !s.final() || !(s.on("alpha_blend") || s.on("glass"))) return;
   const bool environment = s.on("environment_lighting"), glass = s.on("glass");
-  PassPlan& pass = b.pass("transparent", {"alpha_blend", "glass", "fog", "anisotropy", "rough_diffuse"}, {"meshes", "materials", "lights", "depth"}, {"light"});
+  PassPlan& pass = b.pass("transparent", {"alpha_blend", "glass", "fog", "anisotropy", "rough_diffuse"}, {"meshes", "materials", "depth"}, {"light"});
+  if (s.on("local_lights")) pass.reads.emplace_back("lights");
   if (needsCube(s.quality, environment)) pass.reads.push_back("environment cube");
   if (needsDfg(s.quality, environment)) pass.reads.push_back("dfg");
   if (glass && s.facts.refracts) {

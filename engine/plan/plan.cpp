@@ -24,6 +24,10 @@ bool FramePlan::on(std::string_view effect) const {
 const PassPlan* FramePlan::pass(std::string_view name) const { return byName(passes, name); }
 const TargetPlan* FramePlan::target(std::string_view name) const { return byName(targets, name); }
 
+bool plan::reads(const FramePlan& plan, std::string_view what) {
+  return std::any_of(plan.passes.begin(), plan.passes.end(), [what](const PassPlan& p) { return std::find(p.reads.begin(), p.reads.end(), what) != p.reads.end(); });
+}
+
 FramePlan plan::planOf(const Scene& scene, std::span<const Seen> views, const Quality& quality, const Capabilities& caps, const PlanOptions& options, const Facts* whole) {
   Situation situation{scene, views, quality, caps, options, factsOf(scene, views, quality, options), whole, {}};
   judgeEffects(situation);

@@ -165,6 +165,7 @@ ProgramPlan transparentProgram(const TransparentVariant& v, const Quality& quali
   p.defines.push_back(define("EMISSION", v.emits));
   p.defines.push_back(define("FAINT", v.faint));
   p.defines.push_back(define("THROUGH", int(v.through)));
+  if (v.through == Through::Refract) p.defines.push_back(define("UNLIT_AROUND", !lighting.environment && needsCube(quality, true)));
   std::sort(p.defines.begin(), p.defines.end());
   if (v.coverage) p.name += "+coverage";
   if (v.emits) p.name += "+emissive";
@@ -185,6 +186,7 @@ ProgramPlan forwardProgram(GeometryVariant variant, const Quality& quality, cons
   p.name = "forward" + p.name.substr(std::string_view("gbuffer").size());
   p.fragment = "forward/forward.frag";
   for (std::string& d : shadeDefines(quality, lighting)) p.defines.push_back(std::move(d));
+  p.defines.push_back(define("LOCAL", lighting.local));
   std::sort(p.defines.begin(), p.defines.end());
   if (lighting.orthographic) p.name += "+ortho";
   return p;

@@ -81,6 +81,7 @@ struct LightingVariant {
   bool orthographic = false;
   int inPlace = -1;           ///< tone map (ToneMap's number) of what is written straight into the target; -1: radiance is written
   bool fog = false;           ///< lies before what is lit
+  bool local = false;         ///< point and spot lights, in programs that are no tile's
   Details details{false, false};  ///< of what the program's tiles may show
   [[nodiscard]] bool detail() const { return details.brushed || details.rough; }
 };

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "post/bloom.h"
@@ -51,8 +52,10 @@ Result<void> drawTonemap(FrameContext& c, GLuint framebuffer) {
   beginScreen(c, framebuffer);
   bindIfThere(c, "light", UNIT_LIGHT_BUFFER);
   bindIfThere(c, "exposure", UNIT_EXPOSURE);
-  bindIfThere(c, "gbuffer_b", UNIT_GBUFFER_B);
-  bindIfThere(c, "depth", UNIT_DEPTH);
+  if (c.plan.on("host_depth_in")) {
+    bindIfThere(c, "gbuffer_b", UNIT_GBUFFER_B);
+    bindIfThere(c, "depth", UNIT_DEPTH);
+  }
   if (const gl::Texture* bloom = c.targets.texture("bloom")) {
     bloom->bind(UNIT_BLOOM);
     const glm::ivec2 size = scatteredSize(c, 0);
@@ -72,13 +75,11 @@ Result<void> smoothEdges(FrameContext& c, GLuint framebuffer) {
 
 Result<void> drawDebugView(FrameContext& c, GLuint framebuffer) {
   beginScreen(c, framebuffer);
-  bindIfThere(c, "gbuffer_a", UNIT_GBUFFER_A);
-  bindIfThere(c, "gbuffer_b", UNIT_GBUFFER_B);
-  bindIfThere(c, "gbuffer_c", UNIT_GBUFFER_C);
-  bindIfThere(c, "occlusion", UNIT_GBUFFER_C);
-  bindIfThere(c, "gbuffer_d", UNIT_GBUFFER_D);
-  bindIfThere(c, "depth", UNIT_DEPTH);
-  bindIfThere(c, "light", UNIT_LIGHT_BUFFER);
+  constexpr std::pair<std::string_view, GLuint> kUnits[] = {{"gbuffer_a", UNIT_GBUFFER_A}, {"gbuffer_b", UNIT_GBUFFER_B}, {"gbuffer_c", UNIT_GBUFFER_C},
+                                                            {"occlusion", UNIT_GBUFFER_C}, {"gbuffer_d", UNIT_GBUFFER_D}, {"depth", UNIT_DEPTH}, {"light", UNIT_LIGHT_BUFFER}};
+  const std::vector<std::string>& reads = c.plan.pass("debug_view")->reads;
+  for (const auto& [name, unit] : kUnits)
+    if (std::find(reads.begin(), reads.end(), name) != reads.end()) bindIfThere(c, name, unit);
   return c.drawScreen(c.view.orthographic ? "debug_view+ortho" : "debug_view");
 }
 

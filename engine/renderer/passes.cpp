@@ -18,9 +18,7 @@ using lighting::LightingPass;
 /// Runs a member of LightingPass.
 template <Result<void> (LightingPass::*Run)(FrameContext&)>
 Result<void> lit(PassCall& p) {
-  auto lighting = p.modules.lighting();
-  if (!lighting) return fail(lighting.error());
-  return ((*lighting)->*Run)(p.c);
+  return (p.modules.lighting().*Run)(p.c);
 }
 
 Result<void> takeHostDepth(PassCall& p) { return post::takeHostDepth(p.c, *p.target.depthIn); }
@@ -35,6 +33,7 @@ Result<void> forwardPass(PassCall& p) {
 }
 
 Result<void> transparentPass(PassCall& p) {
+  if (p.c.transparent.empty()) return {};
   if (auto bound = lit<&LightingPass::bindLights>(p); !bound) return bound;
   return p.modules.transparent().draw(p.c);
 }
@@ -58,6 +57,15 @@ Result<void> hostDrawPass(PassCall& p) {
   gl::setDefaults(c.device);
   c.device.gl.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   c.buffers.frame.bindBase(GL_UNIFORM_BUFFER, BINDING_FRAME);
+  return {};
+}
+
+Result<void> lightClearPass(PassCall& p) {
+  auto framebuffer = p.c.targets.framebuffer({"light"});
+  if (!framebuffer) return fail(framebuffer.error());
+  p.c.setViewport();
+  const float black[4] = {0, 0, 0, 1};
+  p.c.device.gl.ClearNamedFramebufferfv(*framebuffer, GL_COLOR, 0, black);
   return {};
 }
 
@@ -94,6 +102,7 @@ constexpr PassRow kPasses[] = {
     {"tiles", lit<&LightingPass::buildTiles>},
     {"occlusion", lit<&LightingPass::findOcclusion>},
     {"occlusion_denoise", lit<&LightingPass::denoiseOcclusion>},
+    {"light_clear", lightClearPass},
     {"lighting", lit<&LightingPass::shadeTiles>},
     {"emissive", emissivePass},
     {"background", lit<&LightingPass::drawBackground>},
@@ -110,13 +119,9 @@ constexpr PassRow kPasses[] = {
 
 }  // namespace
 
-Result<LightingPass*> Modules::lighting() {
-  if (!lighting_) {
-    auto made = LightingPass::create(device_);
-    if (!made) return fail(made.error());
-    lighting_ = std::move(*made);
-  }
-  return lighting_.get();
+LightingPass& Modules::lighting() {
+  if (!lighting_) lighting_ = std::make_unique<LightingPass>(device_);
+  return *lighting_;
 }
 
 transparency::TransparentPass& Modules::transparent() {

@@ -13,7 +13,7 @@ namespace burnish {
 class Modules {
  public:
   explicit Modules(gl::Device& device) : device_(device) {}
-  Result<lighting::LightingPass*> lighting();
+  lighting::LightingPass& lighting();
   transparency::TransparentPass& transparent();
 
  private:

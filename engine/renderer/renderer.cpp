@@ -53,6 +53,8 @@ std::vector<std::string> heldSettings(const Quality& q) {
   if (q.occlusion > Occlusion::Baked) check("occlusionRadius", double(q.occlusionRadius), double(1e-3f), double(1e3f), 1);
   return texts;
 }
+/// Some pass draws instances: their transforms and materials are wanted.
+bool drawsInstances(const FramePlan& plan) { return plan::reads(plan, "meshes"); }
 
 /// The GL state of one call: the host's is saved (HostState::Save) and the engine starts from defaults; at the end, on every path, the host finds what it was promised.
 class CallState {
@@ -166,7 +168,7 @@ Result<void> Renderer::Impl::checkRequest(const Target& target, std::span<const 
 Result<void> Renderer::Impl::renderView(SceneState& state, const Scene& scene, const plan::Seen& view, const Target& target, const Quality& quality, const RenderRequest& request, FrameStats& stats) {
   const gpu_scene::GpuEnvironment* environment = nullptr;
   if (plan.on("environment_lighting") || plan.on("background")) {
-    auto found = state.gpu.environment(scene, report);
+    auto found = state.gpu.environment(scene, {.cube = plan::reads(plan, "environment cube"), .picture = plan::reads(plan, "environment")}, report);
     if (!found) return fail(found.error());
     environment = *found;
   }
@@ -175,15 +177,8 @@ Result<void> Renderer::Impl::renderView(SceneState& state, const Scene& scene, c
   const float display = quality.exposureEv ? exposureOf(*quality.exposureEv) : 1;
   if (request.output == Output::Display) c.preExposure = quality.exposureEv ? display : guessedExposure(view.lights, environment, scene.environment.scale);
   if (auto done = gpu_scene::uploadFrameData(c, display); !done) return done;
-  if (auto done = gpu_scene::uploadDraws(c); !done) return done;
-  // Where no pass covers the whole light buffer, it starts black.
-  if (plan.target("light") && !plan.pass("background")) {
-    auto framebuffer = c.targets.framebuffer({"light"});
-    if (!framebuffer) return fail(framebuffer.error());
-    c.setViewport();
-    const float black[4] = {0, 0, 0, 1};
-    device->gl.ClearNamedFramebufferfv(*framebuffer, GL_COLOR, 0, black);
-  }
+  if (drawsInstances(plan))
+    if (auto done = gpu_scene::uploadDraws(c); !done) return done;
   stats.lightsInView += int(view.lights.directional.size());
   PassCall call{c, *modules, target, request};
   for (const PassPlan& pass : plan.passes)
@@ -250,7 +245,8 @@ Result<FrameStats> Renderer::render(const Scene& scene, std::span<const View> vi
   FrameStats stats;
   Result<void> done = m.programSet->prepare(m.plan);
   if (done) done = m.targets->prepare(m.plan);
-  if (done) done = state.gpu.beginFrame(scene, m.options.uploadBytesPerFrame, m.report);
+  state.gpu.beginFrame(scene, m.options.uploadBytesPerFrame);
+  if (done && drawsInstances(m.plan)) done = state.gpu.updateMaterials(scene);
   state.gpu.deformation().beginFrame(scene, false);
   m.timers->beginFrame(timingOf(request.timing));
   for (std::size_t i = 0; i < views.size() && done; ++i) done = m.renderView(state, scene, m.seen[i], target, quality, request, stats);
@@ -292,7 +288,8 @@ Result<Id<Instance>> Renderer::pick(const Scene& scene, const View& view, glm::i
   gpu_scene::TargetPool targets(*m.device);
   if (auto done = programs.prepare(plan); !done) return fail(done.error());
   if (auto done = targets.prepare(plan); !done) return fail(done.error());
-  if (auto done = state.gpu.beginFrame(scene, 0, m.report); !done) return fail(done.error());
+  state.gpu.beginFrame(scene, 0);
+  if (auto done = state.gpu.updateMaterials(scene); !done) return fail(done.error());
   const Quality quality;
   FrameStats stats;
   FrameContext c{.device = *m.device, .plan = plan, .programs = programs, .targets = targets, .gpuScene = state.gpu, .buffers = m.buffers, .scene = scene, .quality = quality, .view = seen.frame,

@@ -28,7 +28,7 @@ Result<void> TransparentPass::blurPicture(FrameContext& c) {
   const glm::ivec4 v = c.view.viewport;
   glm::ivec2 from(blurStale_.x - v.x, blurStale_.y - v.y), to(from.x + blurStale_.z, from.y + blurStale_.w);
   program->use();
-  c.buffers.none.bind();
+  c.buffers.noVertices(device_).bind();
   for (int level = 1; level < picture.levels; ++level) {
     const glm::ivec2 size(std::max(picture.width >> level, 1), std::max(picture.height >> level, 1));
     // Four texels of the level below, one step of rounding.

@@ -66,7 +66,7 @@ Result<void> TransparentPass::begin(FrameContext& c) {
   return {};
 }
 
-Result<void> TransparentPass::bindShading(FrameContext& c, std::string_view depth, GLenum depthFunction) {
+Result<void> TransparentPass::bindShading(FrameContext& c, std::string_view depth, GLenum depthFunction, bool refracts) {
   auto framebuffer = c.targets.framebuffer({"light"}, depth);
   if (!framebuffer) return fail(framebuffer.error());
   const GladGLContext& gl = device_.gl;
@@ -76,16 +76,17 @@ Result<void> TransparentPass::bindShading(FrameContext& c, std::string_view dept
   gl.Enable(GL_BLEND);
   gl.DepthMask(GL_FALSE);
   gl.DepthFunc(depthFunction);
-  c.targets.texture("depth")->bind(UNIT_SCENE_DEPTH);
+  if (refracts) c.targets.texture("depth")->bind(UNIT_SCENE_DEPTH);
   return {};
 }
 
 // One part after the other.
 Result<void> TransparentPass::drawGroup(FrameContext& c, const TransparentGroup& group) {
   for (const TransparentPart& part : group.parts) {
-    if (part.refracts && glass_)
+    const bool refracts = part.refracts && glass_;
+    if (refracts)
       if (auto copied = copyPicture(c, part.blurs); !copied) return copied;
-    if (auto bound = bindShading(c, "depth", GL_GREATER); !bound) return bound;
+    if (auto bound = bindShading(c, "depth", GL_GREATER, refracts); !bound) return bound;
     if (auto drawn = drawParts(c, {&part, 1}, Stage::Shade); !drawn) return drawn;
     copyStale_ = unite(copyStale_, group.rect);
     blurStale_ = unite(blurStale_, group.rect);
@@ -108,14 +109,14 @@ Result<void> TransparentPass::drawLayers(FrameContext& c, const TransparentGroup
     if (!*found) return {};
     if (refracts)
       if (auto copied = copyPicture(c, blurs); !copied) return copied;
-    if (auto bound = bindShading(c, into, GL_EQUAL); !bound) return bound;
+    if (auto bound = bindShading(c, into, GL_EQUAL, refracts); !bound) return bound;
     device_.gl.Scissor(group.rect.x, group.rect.y, group.rect.z, group.rect.w);
     if (auto drawn = drawParts(c, group.parts, Stage::Shade); !drawn) return drawn;
     copyStale_ = unite(copyStale_, group.rect);
     blurStale_ = unite(blurStale_, group.rect);
     before = into;
   }
-  return group.layers > 0 && group.layers <= most ? Result<void>{} : drawRest(c, group, before);
+  return group.layers > 0 && group.layers <= most ? Result<void>{} : drawRest(c, group, before, refracts);
 }
 
 Result<bool> TransparentPass::peel(FrameContext& c, const TransparentGroup& group, std::string_view before, std::string_view into) {
@@ -141,8 +142,8 @@ Result<bool> TransparentPass::peel(FrameContext& c, const TransparentGroup& grou
 }
 
 // What lies in front of the last layer that is peeled: none of it is lost, but it is blended by distance of the instances alone.
-Result<void> TransparentPass::drawRest(FrameContext& c, const TransparentGroup& group, std::string_view last) {
-  if (auto bound = bindShading(c, last, GL_GREATER); !bound) return bound;
+Result<void> TransparentPass::drawRest(FrameContext& c, const TransparentGroup& group, std::string_view last, bool refracts) {
+  if (auto bound = bindShading(c, last, GL_GREATER, refracts); !bound) return bound;
   const GladGLContext& gl = device_.gl;
   gl.Scissor(group.rect.x, group.rect.y, group.rect.z, group.rect.w);
   gl.BeginQuery(GL_ANY_SAMPLES_PASSED, samples_.id());

@@ -23,13 +23,13 @@ class TransparentPass {
   Result<void> begin(gpu_scene::FrameContext& c);
   Result<void> drawGroup(gpu_scene::FrameContext& c, const scene::TransparentGroup& group);
   Result<void> drawLayers(gpu_scene::FrameContext& c, const scene::TransparentGroup& group);
-  Result<void> drawRest(gpu_scene::FrameContext& c, const scene::TransparentGroup& group, std::string_view last);
+  Result<void> drawRest(gpu_scene::FrameContext& c, const scene::TransparentGroup& group, std::string_view last, bool refracts);
   /// False when the layer is empty.
   Result<bool> peel(gpu_scene::FrameContext& c, const scene::TransparentGroup& group, std::string_view before, std::string_view into);
   Result<void> drawParts(gpu_scene::FrameContext& c, std::span<const scene::TransparentPart> parts, Stage stage);
   Result<const Programs*> programsOf(gpu_scene::FrameContext& c, const Material& material, const Mesh& mesh);
   /// Binds light buffer and depth for shading.
-  Result<void> bindShading(gpu_scene::FrameContext& c, std::string_view depth, GLenum depthFunction);
+  Result<void> bindShading(gpu_scene::FrameContext& c, std::string_view depth, GLenum depthFunction, bool refracts);
   /// Brings the copy of the picture up to date with what has been drawn since.
   Result<void> copyPicture(gpu_scene::FrameContext& c, bool levels);
   Result<void> blurPicture(gpu_scene::FrameContext& c);

@@ -1,5 +1,5 @@
 // What is seen through refracting glass: the picture behind it (a copy with mip levels), looked up where the ray that leaves the body meets what is opaque; the surroundings where that
-// lies outside the picture.
+// lies outside the picture. Surroundings that give no light are black (UNLIT_AROUND); where the quality leaves their reflections out, the picture's edge stands for them.
 layout(binding = UNIT_SCENE_COLOR) uniform sampler2D sceneColor;
 layout(binding = UNIT_SCENE_DEPTH) uniform sampler2D sceneDepth;
 
@@ -136,6 +136,8 @@ vec3 behind(vec3 p, vec3 toEye, Surface m, float eta, float thickness, bool insi
 #endif
     seen += (around - seen) * outside;
   }
+#elif UNLIT_AROUND
+  seen -= seen * outside;
 #endif
   return seen * absorbed(material.attenuation.rgb, path);
 }

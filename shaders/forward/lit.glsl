@@ -1,5 +1,5 @@
 // What the forward programs share: the surface at this fragment and its light from every light of the scene.
-// Definitions: DIRECTIONAL (count), FOG, ORTHOGRAPHIC, those of gbuffer/fetch.glsl and of lighting/shade.glsl.
+// Definitions: DIRECTIONAL (count), FOG, LOCAL (1: point and spot lights), ORTHOGRAPHIC, those of gbuffer/fetch.glsl and of lighting/shade.glsl.
 #define ENVIRONMENT_UNIT UNIT_FORWARD_ENVIRONMENT
 #include "shading/bridge.h"
 #include "shading/all.h"
@@ -7,7 +7,9 @@
 #include "interface/radiance.glsl"
 #include "gbuffer/fetch.glsl"
 layout(std140, binding = BINDING_FRAME) uniform Frame { FrameData frame; };
+#if LOCAL
 layout(binding = UNIT_LIGHTS) uniform samplerBuffer lights;
+#endif
 #if ENVIRONMENT
 vec3 ambientAt(vec3 n) {
   return irradianceSh(n, frame.irradiance[0].rgb, frame.irradiance[1].rgb, frame.irradiance[2].rgb, frame.irradiance[3].rgb, frame.irradiance[4].rgb, frame.irradiance[5].rgb,
@@ -51,11 +53,13 @@ vec3 positionHere(out vec3 toEye) {
 vec3 litByLights(Surface m, vec3 p, float row, float occlusion) {
   vec3 sum = vec3(0.0);
   for (int i = 0; i < DIRECTIONAL; ++i) sum += shadeLight(m, frame.directional[2 * i].xyz, row, occlusion) * frame.directional[2 * i + 1].rgb;
+#if LOCAL
   int count = int(frame.environment.y);
   for (int i = 1; i <= count; ++i) {
     vec4 place = texelFetch(lights, i * LIGHT_TEXELS);
     vec3 one = punctual(m, p, place, texelFetch(lights, i * LIGHT_TEXELS + 1), row, occlusion);
     sum += one * inCone(p, place, texelFetch(lights, i * LIGHT_TEXELS + 2), texelFetch(lights, i * LIGHT_TEXELS + 3).x);
   }
+#endif
   return sum;
 }

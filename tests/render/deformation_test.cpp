@@ -45,7 +45,7 @@ struct Bench {
     FrameStats stats;
     gpu_scene::FrameContext c{.device = *f.device, .plan = plan, .programs = programs, .targets = targets, .gpuScene = *state, .buffers = buffers, .scene = scene, .quality = quality,
                               .view = view, .visible = visible, .batches = {}, .lights = lights, .size = {64, 64}, .report = report, .stats = stats};
-    REQUIRE(state->beginFrame(scene, 0, report));
+    state->beginFrame(scene, 0);
     deformation().beginFrame(scene, previous);
     const auto done = gpu_scene::deform(c, visible);
     if (!done) FAIL(done.error().message());
