@@ -95,7 +95,7 @@ Result<void> drawInstances(FrameContext& c, plan::GeometryPass pass, bool occlus
     if (!wants(material)) continue;
     plan::GeometryVariant variant = plan::variantOf(material, *v.mesh, details);
     variant.instanced = batch.count > 1;
-    if (!occlusionTarget) variant.occlusionMap = variant.packed = false;
+    if (!occlusionTarget) variant.occlusionMap = false;
     if (share != Share::All && variant.detail() != (share == Share::Detailed)) continue;
     auto program = programs.of(variant);
     if (!program) return fail(program.error());

@@ -17,7 +17,7 @@ GeometryVariant variantOf(const Material& m, const Mesh& mesh, Details details) 
   v.general = mapped || bool(m.metalRoughMap) || (m.useVertexColor && !mesh.colors.empty());
   v.alphaTest = m.alphaTest;
   v.occlusionMap = m.mapC && m.occlusionStrength > 0;
-  v.packed = v.occlusionMap && packsOcclusion(m);
+  v.packed = packsOcclusion(m);
   v.brushed = details.brushed && m.anisotropy > 0 && !m.unlit;
   v.rough = details.rough && m.diffuseRoughness > 0 && !m.unlit;
   return v;
@@ -45,7 +45,8 @@ bool drawnTransparent(const Material& m, bool blend, bool glass) { return scene:
 
 TransparentVariant transparentVariantOf(const Material& m, const Mesh& mesh, bool occlusion, Details details) {
   TransparentVariant v;
-  v.geometry = occlusion ? variantOf(m, mesh, details) : variantOf(m, mesh, details).withoutOcclusion();
+  v.geometry = variantOf(m, mesh, details);
+  if (!occlusion) v.geometry.occlusionMap = false;
   v.through = !scene::isGlass(m) ? Through::Blend : scene::refracts(m) ? Through::Refract : Through::Clear;
   v.coverage = m.blend && (m.mapC || (m.useVertexColor && !mesh.colors.empty()));
   v.emits = emits(m);
@@ -68,6 +69,8 @@ ProgramPlan geometryProgram(GeometryPass pass, GeometryVariant variant, bool occ
   if (variant.instanced) p.name += "+instanced";
   if (pass == GeometryPass::GBuffer) {
     p.defines.push_back(define("OCCLUSION", !occlusionTarget ? 0 : !variant.occlusionMap ? 2 : variant.packed ? 3 : 1));
+    p.defines.push_back(define("PACKED", variant.packed));
+    if (!occlusionTarget && variant.packed) p.name += "+packed";
     if (occlusionTarget) p.name += !variant.occlusionMap ? "+unoccluded" : variant.packed ? "+ao" : "+ao_map";
     p.defines.push_back(define("ANISOTROPIC", variant.brushed));
     p.defines.push_back(define("ROUGH_DIFFUSE", variant.rough));
