@@ -53,6 +53,12 @@ Verdict environmentLighting(const Situation& s) {
 }
 Verdict background(const Situation& s) { return provided(sceneCalls(s, Call::Background, "an environment shown as background would call for it"), s.final(), kNotShown); }
 
+Verdict sunDisc(const Situation& s) {
+  const bool scene = s.scene.environment.sun.has_value();
+  return provided({s.facts.has(Call::SunDisc), scene ? s.facts.has(Call::SunDisc) ? s.facts.why[std::size_t(Call::SunDisc)] : "out of view: the environment's sun" : "an environment with a sun would call for it"},
+                  s.on("background"), "there is no background to show it in");
+}
+
 Verdict forwardReference(const Situation& s) {
   const std::string rung = forwardOnlyRung(s.quality);
   if (s.quality.path != Path::Forward && rung.empty()) return {false, "path=forward or a forward-only rung would call for it"};
@@ -121,6 +127,7 @@ constexpr EffectRow kRows[] = {
     {{"local_lights", CalledBy::Scene, "point and spot lights"}, localLights, false},
     {{"environment_lighting", CalledBy::Scene, "light of the surroundings"}, environmentLighting, false},
     {{"background", CalledBy::Scene, "the surroundings where nothing was drawn"}, background, false},
+    {{"sun_disc", CalledBy::Scene, "the sun itself in the background"}, sunDisc, false},
     {{"forward_reference", CalledBy::Setting, "surfaces shaded where they are drawn, unquantised"}, forwardReference},
     {{"screen_occlusion", CalledBy::Setting, "ambient occlusion found on the screen"}, screenOcclusion, false},
     {{"auto_exposure", CalledBy::Setting, "exposure metered from the picture"}, autoExposure},
