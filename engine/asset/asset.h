@@ -101,6 +101,13 @@ struct Fog {
   glm::vec3 albedo{1};
   float anisotropy = 0, start = 0;
 };
+/// scene.extras.burnish.sky, as burnish::SunSky.
+struct Sky {
+  glm::vec3 sun{0, 1, 0};
+  float turbidity = 2.5f;
+  glm::vec3 ground{0.2f};
+  float altitude = 2;
+};
 struct Node {
   std::string name;
   int parent = -1;
@@ -144,6 +151,7 @@ struct Asset {
   std::vector<Skin> skins;
   std::vector<Animation> animations;
   std::optional<Fog> fog;
+  std::optional<Sky> sky;
   std::string environment;      ///< scene.extras.burnish.environment: path relative to the file's folder; empty: none
 };
 

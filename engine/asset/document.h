@@ -91,6 +91,7 @@ struct SkinSource {
 struct SceneSource {
   std::string name, environment;
   std::optional<Fog> fog;
+  std::optional<Sky> sky;
   std::vector<int> nodes;
 };
 struct SamplerSource {

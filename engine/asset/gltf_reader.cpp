@@ -88,6 +88,7 @@ Result<Asset> finish(Check& check, Document& doc, Source& source, std::uint64_t 
   if (doc.scene >= 0) {
     asset.environment = doc.scenes[std::size_t(doc.scene)].environment;
     asset.fog = doc.scenes[std::size_t(doc.scene)].fog;
+    asset.sky = doc.scenes[std::size_t(doc.scene)].sky;
   }
   return asset;
 }

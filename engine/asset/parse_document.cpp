@@ -133,6 +133,24 @@ void parseFog(const At& at, Check& check, SceneSource& scene) {
   fog.start = float(check.number(at, "start", 0, kNotNegative));
 }
 
+/// `extras.burnish.sky`.
+void parseSky(const At& at, Check& check, SceneSource& scene) {
+  check.known(at, {"sun", "turbidity", "ground", "altitude"});
+  if (!scene.environment.empty())
+    check.fail(at, "the scene has an environment too", "keep one of sky and environment");
+  Sky& sky = scene.sky.emplace();
+  double sun[3] = {0, 0, 0}, ground[3] = {0.2, 0.2, 0.2};
+  check.member(at, "sun", Need::Required);
+  check.numbers(at, "sun", sun);
+  if (check.ok() && sun[0] == 0 && sun[1] == 0 && sun[2] == 0)
+    check.fail(at, "sun is no direction", "give a vector that points to the sun");
+  check.numbers(at, "ground", ground, kUnit);
+  sky.sun = {sun[0], sun[1], sun[2]};
+  sky.ground = {ground[0], ground[1], ground[2]};
+  sky.turbidity = float(check.number(at, "turbidity", 2.5, {1, 10}));
+  sky.altitude = float(check.number(at, "altitude", 2, {1, 50000}));
+}
+
 void parseScenes(const At& root, Check& check, Document& doc) {
   check.eachObject(root, "scenes", [&](const At& at, std::size_t) {
     SceneSource& scene = doc.scenes.emplace_back();
@@ -142,6 +160,7 @@ void parseScenes(const At& root, Check& check, Document& doc) {
     check.withOwnExtras(at, [&](const At& ours) {
       if (const std::string* file = check.string(ours, "environment")) scene.environment = *file;
       check.withObject(ours, "fog", [&](const At& fog) { parseFog(fog, check, scene); });
+      check.withObject(ours, "sky", [&](const At& sky) { parseSky(sky, check, scene); });
     });
   });
   doc.scene = check.reference(root, "scene", Table::Scenes);

@@ -145,6 +145,15 @@ void fillFog(FrameData& d, FrameContext& c) {
   d.fogLight[4] = vec4(fog.albedo, fog.anisotropy);
 }
 
+void fillSun(FrameData& d, const FrameContext& c) {
+  const Environment::Sun& sun = *c.scene.environment.sun;
+  const auto finite = [](float v, float otherwise) { return std::isfinite(v) ? v : otherwise; };
+  d.sun[0] = vec4(sun.toSun, std::clamp(finite(sun.radius, 0.004652f), 1e-5f, 1.5f));
+  // Held where its product with a pixel's share still is a number.
+  for (int i = 0; i < 3; ++i) d.sun[1][i] = std::clamp(finite(sun.radiance[i], 0) * c.preExposure, 0.0f, 1e30f);
+  d.sun[1].w = finite(sun.horizon, -2);
+}
+
 }  // namespace
 
 Result<void> uploadFrameData(FrameContext& c, float displayExposure) {
@@ -163,6 +172,7 @@ Result<void> uploadFrameData(FrameContext& c, float displayExposure) {
     for (std::size_t i = 0; i < 9; ++i) d.irradiance[i] = vec4(c.environment->irradiance[i] * scale, 0);
   }
   if (c.plan.on("fog")) fillFog(d, c);
+  if (c.plan.on("sun_disc") && c.scene.environment.sun) fillSun(d, c);
   d.environment.y = float(c.lights.local.size());
   d.environment.z = std::isfinite(c.quality.occlusionRadius) ? std::clamp(c.quality.occlusionRadius, 1e-3f, 1e3f) : 1.0f;
   d.environment.w = float(c.view.viewport.w) / 6;

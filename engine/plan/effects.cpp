@@ -69,6 +69,11 @@ Verdict bakedOcclusion(const Situation& s) {
   const Verdict called = sceneCalls(s, Call::BakedOcclusion, s.quality.occlusion == Occlusion::None ? "the quality turns it off" : "a material with an occlusion map would call for it");
   return provided(provided(called, s.final() || s.options.debugView == DebugView::Occlusion, kNotShown), holdsBack(s), kHoldsNothingBack);
 }
+Verdict sunDisc(const Situation& s) {
+  const bool scene = s.scene.environment.sun.has_value();
+  return provided({s.facts.has(Call::SunDisc), scene ? s.facts.has(Call::SunDisc) ? s.facts.why[std::size_t(Call::SunDisc)] : "out of view: the environment's sun" : "an environment with a sun would call for it"},
+                  s.on("background"), "there is no background to show it in");
+}
 
 Verdict forwardReference(const Situation& s) {
   const std::string rung = forwardOnlyRung(s.quality);
@@ -139,6 +144,7 @@ constexpr EffectRow kRows[] = {
     {{"environment_lighting", CalledBy::Scene, "light of the surroundings"}, environmentLighting, false},
     {{"background", CalledBy::Scene, "the surroundings where nothing was drawn"}, background, false},
     {{"baked_occlusion", CalledBy::Scene, "occlusion maps"}, bakedOcclusion, false},
+    {{"sun_disc", CalledBy::Scene, "the sun itself in the background"}, sunDisc, false},
     {{"forward_reference", CalledBy::Setting, "surfaces shaded where they are drawn, unquantised"}, forwardReference},
     {{"screen_occlusion", CalledBy::Setting, "ambient occlusion found on the screen"}, screenOcclusion, false},
     {{"auto_exposure", CalledBy::Setting, "exposure metered from the picture"}, autoExposure},

@@ -89,7 +89,7 @@ void addBackground(Builder& b) {
   const Situation& s = b.s;
   if (!s.fillsBackground()) return;
   const bool inPlace = s.developsInPlace();
-  PassPlan& pass = b.pass("background", {"background", "fog"}, {}, {inPlace ? "target" : "light"});
+  PassPlan& pass = b.pass("background", {"background", "fog", "sun_disc"}, {}, {inPlace ? "target" : "light"});
   if (inPlace) pass.effects.emplace_back("tone_mapping");
   if (s.hasDepth()) pass.reads.push_back("depth");
   if (s.hasTiles()) pass.reads.push_back("light lists");
@@ -97,7 +97,7 @@ void addBackground(Builder& b) {
   if (map == 1) pass.reads.emplace_back("environment");
   for (bool o : s.projections()) {
     const LightingVariant lighting = s.lighting(o);
-    ProgramPlan p{o ? "background+ortho" : "background", s.hasTiles() ? "lighting/background_tile.vert" : "post/screen.vert", "lighting/sky.frag", {define("FOG", lighting.fog), define("IN_PLACE", inPlace), define("ORTHOGRAPHIC", o), define("SKY_MAP", map), define("TONEMAP", inPlace ? int(s.quality.toneMap) : 0)}};
+    ProgramPlan p{o ? "background+ortho" : "background", s.hasTiles() ? "lighting/background_tile.vert" : "post/screen.vert", "lighting/sky.frag", {define("FOG", lighting.fog), define("IN_PLACE", inPlace), define("ORTHOGRAPHIC", o), define("SKY_MAP", map), define("SUN", s.on("sun_disc") && !o), define("TONEMAP", inPlace ? int(s.quality.toneMap) : 0)}};
     if (lighting.fog) {
       p.defines.push_back(define("DIRECTIONAL", lighting.directional));
       p.defines.push_back(define("FOG_AMBIENT", fogAmbient(s.quality, lighting)));

@@ -96,6 +96,15 @@ void addEnvironment(const Environment& e, Facts& facts) {
   if (e.background) facts.why[std::size_t(Call::Background)] = why;
 }
 
+/// Its disc, with room for its smooth edge, is in a perspective view.
+bool sees(const scene::ViewFrame& v, const Environment::Sun& sun) {
+  if (v.orthographic) return false;
+  const glm::dvec3 s(sun.toSun);
+  const double forward = -glm::dot(v.axes[2], s), pixel = 2 * std::max(v.tanX / std::max(v.viewport.z, 1), v.tanY / std::max(v.viewport.w, 1)), room = double(sun.radius) + 2 * pixel;
+  const auto within = [&](double along, double tan) { return std::abs(along) <= forward * tan + room * std::sqrt(1 + tan * tan); };
+  return within(glm::dot(v.axes[0], s), v.tanX) && within(glm::dot(v.axes[1], s), v.tanY);
+}
+
 }  // namespace
 
 void look(const Scene& scene, const scene::Derived& derived, const View& view, glm::ivec2 targetSize, const Quality& quality, Report& report, Seen& out) {
@@ -132,6 +141,8 @@ Facts factsOf(const Scene& scene, std::span<const Seen> views, const Quality& qu
     if (view.fogDepth > scene::kLeastFog) facts.why[std::size_t(Call::Fog)] = "the scene's fog";
   }
   addEnvironment(scene.environment, facts);
+  if (const auto& sun = scene.environment.sun)
+    if (options.wholeScene || std::any_of(views.begin(), views.end(), [&](const Seen& v) { return sees(v.frame, *sun); })) facts.why[std::size_t(Call::SunDisc)] = "the environment's sun";
   return facts;
 }
 

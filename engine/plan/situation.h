@@ -25,7 +25,7 @@ void look(const Scene& scene, const scene::Derived& derived, const View& view, g
 void lookEverywhere(const Scene& scene, const scene::Derived& derived, const View& view, glm::ivec2 targetSize, const Quality& quality, Report& report, Seen& out);
 
 /// What a scene holds that effects are called by.
-enum class Call : std::uint8_t { Geometry, Deformation, TwoSided, AlphaTest, BakedOcclusion, Anisotropy, RoughDiffuse, Emissive, Directional, Local, Environment, Background, AlphaBlend, Glass, Fog, Count };
+enum class Call : std::uint8_t { Geometry, Deformation, TwoSided, AlphaTest, BakedOcclusion, Anisotropy, RoughDiffuse, Emissive, Directional, Local, Environment, Background, AlphaBlend, Glass, Fog, SunDisc, Count };
 struct Facts {
   std::array<std::string, std::size_t(Call::Count)> why;  ///< the first thing that calls; empty: nothing does
   std::array<int, std::size_t(Call::Count)> objects{};    ///< how many call, instances or lights, counted once a view

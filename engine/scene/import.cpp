@@ -25,6 +25,7 @@ class Importer {
     if (auto r = meshes(); !r) return fail(r.error());
     nodes();
     animations();
+    if (const auto& sky = asset_.sky) setSky(scene_, {sky->sun, sky->turbidity, sky->ground, sky->altitude}, report_);
     return std::move(scene_);
   }
 

@@ -1,5 +1,5 @@
 // Background where nothing was drawn (depth test: equal to the far plane). Definitions: ORTHOGRAPHIC, SKY_MAP (0 colour, 1 lat-long picture, 2 nothing: the fog
-// alone shows), FOG (1: as far as it reaches; DIRECTIONAL and FOG_AMBIENT, interface/fog.glsl), IN_PLACE (1: writes what the
+// alone shows), SUN (1: with the sun's disc), FOG (1: as far as it reaches; DIRECTIONAL and FOG_AMBIENT, interface/fog.glsl), IN_PLACE (1: writes what the
 // display takes into a framebuffer that has no depth: what is drawn over is found in the depth texture; TONEMAP).
 #include "shading/bridge.h"
 #include "shading/constants.h"
@@ -20,11 +20,21 @@ layout(binding = UNIT_ENVIRONMENT) uniform sampler2D skyMap;
 #endif
 layout(location = 0) out vec4 outRadiance;
 
+#if SUN
+// A disc with an edge one pixel wide. One smaller than a pixel is drawn as wide as that and dimmer, so that its light stays the same wherever it stands.
+vec3 sunDisc(vec3 d) {
+  float pixel = sqrt(length(frame.rayX.xyz) * length(frame.rayY.xyz) * pow(dot(d, frame.forward.xyz), 3.0));  // radians: the root of its solid angle
+  float angle = distance(d, frame.sun[0].xyz), radius = max(frame.sun[0].w, pixel), dimmed = frame.sun[0].w / radius;
+  float share = clamp(0.5 + (radius - angle) / pixel, 0.0, 1.0) * clamp(0.5 + (d.y - frame.sun[1].w) / pixel, 0.0, 1.0);
+  return frame.sun[1].rgb * (share * dimmed * dimmed);
+}
+#endif
+
 void main() {
 #if IN_PLACE
   if (texelFetch(gbufferDepth, ivec2(gl_FragCoord.xy), 0).r > 0.0) discard;
 #endif
-#if SKY_MAP == 1 || FOG
+#if SKY_MAP == 1 || FOG || SUN
   vec2 pixel = gl_FragCoord.xy - vec2(frame.viewport.xy);
   vec3 ray = frame.rayOrigin.xyz + frame.rayX.xyz * pixel.x + frame.rayY.xyz * pixel.y;
 #if ORTHOGRAPHIC
@@ -41,6 +51,9 @@ void main() {
   vec3 c = frame.background.rgb;
 #else
   vec3 c = vec3(0.0);
+#endif
+#if SUN
+  c += sunDisc(d);
 #endif
 #if FOG
 #if ORTHOGRAPHIC

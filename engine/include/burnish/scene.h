@@ -272,11 +272,27 @@ struct Camera {
 
 /// The light of the surroundings, seen as background and reflected.
 struct Environment {
+  /// A disc in the background of perspective views, with smooth edges. It lights nothing: that is a directional light's.
+  struct Sun {
+    glm::vec3 toSun{0, 1, 0};  ///< world, unit
+    glm::vec3 radiance{0};     ///< cd/m², whatever `scale` is
+    float radius = 0.004652f;  ///< radians, above 0
+    float horizon = -2;        ///< sine of the elevation under which it is hidden; -2: nowhere
+  };
   Image map;               ///< lat-long F32 RGB(A), cd/m² × scale; +Y up, centre column looks along -Z as glTF viewers do; empty: `color`
   glm::vec3 color{0};      ///< cd/m², used without a map
   float scale = 1;
   bool background = true;  ///< draw it where nothing else is
   std::uint64_t revision = 0;  ///< advance it when the map or colour changes
+  std::optional<Sun> sun;
+};
+
+/// Sun and sky of a clear day (docs/sky_and_fog.md).
+struct SunSky {
+  glm::vec3 toSun{0.35f, 0.6f, -0.7f};  ///< world, any length
+  float turbidity = 2.5f;               ///< 1 (clean air) to 10 (thick haze)
+  glm::vec3 ground{0.2f};               ///< albedo of the land around, 0..1
+  float altitude = 2;                   ///< metres of the eye above that land, 1 to 50000
 };
 
 /// Fog that thins with height, lit by suns and surroundings (docs/sky_and_fog.md). Its extinction, h metres above `height`, is density · exp(-falloff · h).
@@ -337,6 +353,10 @@ BURNISH_API std::vector<Id<Animation>> playedTogether(const Scene& scene);
 BURNISH_API void animate(Scene& scene, double time);
 /// Checks the sizes of curves and the order of their times, and drops the tracks that use a faulty one, with one warning that counts them.
 BURNISH_API Animation validated(Animation animation, Report& report);
+
+/// Makes the environment (picture and disc) and the sun's light. `sun`: a directional light of the scene that becomes it, with a node of its own; empty: one is added. A sun under the
+/// horizon is disabled. Numbers that are out of range are held, with a warning. It takes some tenths of a second: call it when the sky changes. Returns the light.
+BURNISH_API Id<Light> setSky(Scene& scene, const SunSky& sky, Report& report, Id<Light> sun = {});
 
 /// How a file becomes a scene.
 struct LoadOptions {
