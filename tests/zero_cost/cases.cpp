@@ -68,6 +68,13 @@ constexpr EffectCase kBakedOcclusion{"baked_occlusion", [](Subject& s) { eachMat
                                        setEnvironment(s, 1, false);
                                      }};
 
+constexpr EffectCase kAnisotropy{"anisotropy", [](Subject& s) { eachMaterial(s, [](Material& m) { m.anisotropy = 0; }); },
+                                 [](Subject& s) {
+                                   ballsMaterial(s).anisotropy = 0.8f;
+                                   ballsMaterial(s).anisotropyRotation = 0.5f;
+                                 }};
+constexpr EffectCase kRoughDiffuse{"rough_diffuse", [](Subject& s) { eachMaterial(s, [](Material& m) { m.diffuseRoughness = 0; }); }, [](Subject& s) { ballsMaterial(s).diffuseRoughness = 0.4f; }};
+
 constexpr EffectCase kEmissive{"emissive",
                                [](Subject& s) {
                                  eachMaterial(s, [](Material& m) {
@@ -130,6 +137,8 @@ constexpr EffectCase kCases[] = {
     kDeformation,
     kTwoSided,
     kAlphaTest,
+    kAnisotropy,
+    kRoughDiffuse,
     kEmissive,
     kAlphaBlend,
     kGlass,
