@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <numeric>
 
 #include "interface/limits.h"
+#include "scene/shadow_content.h"
 #include "scene/transparency.h"
 
 namespace burnish::scene {
@@ -19,29 +19,6 @@ constexpr double kWidestCone = 1.0471976;  // radians from the axis, 60 degrees
 constexpr double kLightNear = 0.01;
 
 std::string place(const Light* light) { return !light || light->name.empty() ? "an unnamed light" : fmt::format("light '{}'", light->name); }
-
-// A running mix of 64-bit words (Steele, Lea and Flood 2014, "Fast splittable pseudorandom number generators", the finaliser).
-class Digest {
- public:
-  void add(std::uint64_t word) {
-    state_ = (state_ ^ word) + 0x9e3779b97f4a7c15ull;
-    state_ = (state_ ^ (state_ >> 30)) * 0xbf58476d1ce4e5b9ull;
-    state_ = (state_ ^ (state_ >> 27)) * 0x94d049bb133111ebull;
-    state_ ^= state_ >> 31;
-  }
-  void add(const glm::dmat4& m) {
-    for (int c = 0; c < 4; ++c)
-      for (int r = 0; r < 4; ++r) add(std::bit_cast<std::uint64_t>(m[c][r]));
-  }
-  void add(const glm::mat4& m) {
-    for (int c = 0; c < 4; ++c)
-      for (int r = 0; r < 4; r += 2) add(std::uint64_t(std::bit_cast<std::uint32_t>(m[c][r])) << 32 | std::bit_cast<std::uint32_t>(m[c][r + 1]));
-  }
-  [[nodiscard]] std::uint64_t value() const { return state_ ? state_ : 1; }
-
- private:
-  std::uint64_t state_ = 0;
-};
 
 class Gatherer {
  public:
@@ -77,36 +54,6 @@ class Gatherer {
     });
   }
 
-  // Where a caster is, which vertices it shows and where it has holes.
-  std::uint64_t contentOf(ShadowCaster& c) {
-    if (c.content) return c.content;
-    Digest d;
-    const Instance& instance = *c.placed.instance;
-    d.add(std::uint64_t(instance.mesh.index) << 32 | instance.mesh.generation);
-    d.add(scene_.meshes.revision(instance.mesh));
-    d.add(c.placed.placement);
-    if (const Pose* pose = c.placed.pose) {
-      for (const glm::mat4& joint : pose->joints) d.add(joint);
-      for (const auto& [target, weight] : pose->targets) d.add(std::uint64_t(target) << 32 | std::bit_cast<std::uint32_t>(weight));
-    }
-    if (c.cutout) {
-      d.add(std::uint64_t(instance.material.index) << 32 | instance.material.generation);
-      d.add(scene_.materials.revision(instance.material));
-      d.add(scene_.textures.revision());
-    }
-    return c.content = d.value();
-  }
-
-  std::uint64_t contentOf(const ShadowMap& map) {
-    Digest d;
-    d.add(scene_.identity.value());
-    d.add(std::uint64_t(resolution_));
-    for (int i = 0; i < 3; ++i) d.add(std::bit_cast<std::uint64_t>(map.origin[i]));
-    d.add(map.clip);
-    for (const std::uint32_t c : map.casters) d.add(contentOf(out_.casters[c]));
-    return d.value();
-  }
-
   // Casters inside the map's volume; false when there are none.
   bool fill(ShadowMap& map) {
     ViewFrame volume;
@@ -126,12 +73,19 @@ class Gatherer {
     return std::any_of(out_.casters.begin(), out_.casters.end(), [&](const ShadowCaster& c) { return c.seen && frustum.meetsBox(c.placed.center + frame_.eye - origin, c.placed.extent); });
   }
   int keep(ShadowMap map) {
-    map.content = contentOf(map);
+    map.content = contentOf(scene_, map, out_.casters, resolution_);
     out_.maps.push_back(std::move(map));
     return int(out_.maps.size()) - 1;
   }
   void noRoom(Id<Light> id) {
     report_.warn(place(scene_.lights.get(id)), fmt::format("casts no shadow where it would take more than {} shadow maps in one view (Quality::shadowMaps)", held(quality_.shadowMaps, 1, 1024, "shadowMaps")));
+  }
+
+  // `texels`: no edge is softer than that.
+  void checkSoftness(Id<Light> id, double texels) {
+    if (quality_.shadow == Shadow::Pcss && texels > SHADOW_WIDEST)
+      report_.warn(place(scene_.lights.get(id)), fmt::format("where what casts is far from what it shades, the shadow's edge is held at {} texels to either side, sharper than the light's size makes it (a smaller light, or a lower Quality::shadowResolution)",
+                                                             SHADOW_WIDEST));
   }
 
   // Suns.
@@ -205,7 +159,7 @@ class Gatherer {
       }
       for (const glm::dvec2& range : split) {
         Cascade c = placeCascade(frame_, sun.axes, range, resolution_, reach_);
-        fillCascade(sun, c);
+        if (fillCascade(sun, c)) checkSoftness(l.id, sun.tangent * (c.near + c.far) / (2 * c.radius / resolution_));
         sun.cascades.push_back(c);
       }
       left_ -= int(split.size());
@@ -251,7 +205,20 @@ class Gatherer {
       s.axes = sunAxes(glm::normalize(glm::dvec3(l.axis)));
       addMap(s, 0, s.axes);
     }
+    checkSoftness(l.id, l.sourceRadius / nearestCaster(s) / (2 * s.tangent / resolution_));
     return s;
+  }
+  // From the light to the nearest box in its maps, m.
+  [[nodiscard]] double nearestCaster(const LocalShadow& s) const {
+    double nearest = s.far;
+    for (const int map : s.maps) {
+      if (map < 0) continue;
+      for (const std::uint32_t i : out_.maps[std::size_t(map)].casters) {
+        const Placed& p = out_.casters[i].placed;
+        nearest = std::min(nearest, glm::length(glm::max(glm::abs(p.center + frame_.eye - s.origin) - p.extent, 0.0)));
+      }
+    }
+    return std::max(nearest, s.near);
   }
   // No direction of a face is farther than 54.8 degrees from its axis, and its map is a little wider.
   static bool outsideCone(const glm::dvec3& face, const LocalLight& l, double outer) { return std::acos(std::clamp(glm::dot(face, glm::dvec3(l.axis)), -1.0, 1.0)) > outer + 1.1; }

@@ -207,6 +207,13 @@ TEST_CASE("limits of shadows are said: too many maps, too many suns, a distance,
   CHECK(warned(*s.stage.renderer, "light 'extra'", "past the limit of 4"));
   CHECK(warned(*s.stage.renderer, "an unnamed light", "angularDiameter"));
   CHECK(warned(*s.stage.renderer, "material 'pane'", "casts no shadow"));
+  Quality soft;
+  soft.shadow = Shadow::Pcss;
+  s.yard.scene.lights.edit(s.spot)->name = "lamp";
+  s.yard.scene.lights.edit(s.spot)->sourceRadius = 2;
+  s.stage.linear(s.yard.scene, s.view, kSize, soft);
+  CHECK(warned(*s.stage.renderer, "light 'lamp'", "held at 16 texels"));
+  s.stage.linear(s.yard.scene, s.view, kSize);
   const std::size_t told = s.stage.renderer->report().warnings().size();
   s.stage.linear(s.yard.scene, s.view, kSize);
   CHECK(s.stage.renderer->report().warnings().size() == told);
