@@ -55,6 +55,27 @@ void parseCamera(const At& at, Check& check, Document& doc) {
   check.withObject(at, "orthographic", [&](const At& o) { parseOrthographic(o, check, c); });
 }
 
+/// `extras.burnish` of a light: shadow (true or false), sourceRadius (m), angularDiameter (rad). A fault in it is a warning, for extras are free-form.
+void parseLightExtras(const At& at, Check& check, Light& l) {
+  check.withOwnExtras(at, [&](const At& ours) {
+    if (const auto shadow = ours->find("shadow"); shadow != ours->end()) {
+      if (shadow->is_boolean())
+        l.shadow = shadow->get<bool>();
+      else
+        check.warn(At(ours, "shadow", *shadow).path(), fmt::format("{} where true or false is expected: it is left out", shadow->type_name()));
+    }
+    for (const auto& [key, into] : {std::pair("sourceRadius", &l.sourceRadius), std::pair("angularDiameter", &l.angularDiameter)}) {
+      const auto found = ours->find(key);
+      if (found == ours->end()) continue;
+      const double value = found->is_number() ? found->get<double>() : -1;
+      if (value >= 0 && value <= 1e6)
+        *into = float(value);
+      else
+        check.warn(At(ours, key, *found).path(), "no number from 0 to 1e6: it is left out");
+    }
+  });
+}
+
 // KHR_lights_punctual
 void parseLight(const At& at, Check& check, Document& doc) {
   Light& l = doc.lights.emplace_back();
@@ -65,6 +86,7 @@ void parseLight(const At& at, Check& check, Document& doc) {
   l.color = {float(color[0]), float(color[1]), float(color[2])};
   l.intensity = float(check.number(at, "intensity", 1, kNotNegative));
   l.range = float(check.number(at, "range", 0, kPositive));
+  parseLightExtras(at, check, l);
   const std::string* type = check.string(at, "type", Need::Required);
   if (!type) return;
   if (*type == "directional" || *type == "point") {

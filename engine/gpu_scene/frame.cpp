@@ -17,18 +17,19 @@ Result<void> TargetPool::prepare(const FramePlan& plan) {
   for (const TargetPlan& t : plan.targets) {
     Entry& entry = entries_[t.name];
     entry.idle = 0;
-    if (entry.texture && entry.plan.format == t.format && entry.plan.width == t.width && entry.plan.height == t.height && entry.plan.levels == t.levels) continue;
+    if (entry.texture && entry.plan.format == t.format && entry.plan.width == t.width && entry.plan.height == t.height && entry.plan.levels == t.levels && entry.plan.layers == t.layers) continue;
     changed = true;
     const gl::FormatInfo* format = gl::formatInfo(t.format);
     if (!format) return fail(fmt::format("target '{}'", t.name), fmt::format("unknown format {}", t.format));
     entry.texture = {};  // the old one goes first: memory may be short
-    auto texture = gl::Texture::create(device_, {.format = format->format, .width = t.width, .height = t.height, .levels = t.levels}, t.name);
+    auto texture = gl::Texture::create(device_, {.target = GLenum(t.layers > 0 ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_2D), .format = format->format, .width = t.width, .height = t.height, .layers = std::max(t.layers, 1), .levels = t.levels}, t.name);
     if (!texture) {
       framebuffers_.clear();
       return fail(texture.error());
     }
     entry.plan = t;
     entry.texture = std::move(*texture);
+    entry.serial = ++made_;
   }
   changed |= std::erase_if(entries_, [](const auto& e) { return e.second.idle > kIdleFrames; }) > 0;
   if (changed) framebuffers_.clear();
@@ -52,6 +53,20 @@ Result<GLuint> TargetPool::framebuffer(std::initializer_list<std::string_view> c
   std::optional<gl::Attachment> depthAttachment;
   if (const gl::Texture* t = texture(depth)) depthAttachment = *t;
   auto made = gl::Framebuffer::create(device_, attachments, depthAttachment, key);
+  if (!made) return fail(made.error());
+  const GLuint id = made->id();
+  framebuffers_.emplace(key, std::move(*made));
+  return id;
+}
+
+std::uint64_t TargetPool::serial(std::string_view name) const { return texture(name) ? entries_.find(name)->second.serial : 0; }
+
+Result<GLuint> TargetPool::layerFramebuffer(std::string_view depth, int layer) {
+  const std::string key = fmt::format("{} layer {}", depth, layer);
+  if (const auto found = framebuffers_.find(key); found != framebuffers_.end()) return found->second.id();
+  const gl::Texture* t = texture(depth);
+  if (!t) return fail("frame plan", fmt::format("target '{}' is not in it", depth), "report this as a fault of the engine");
+  auto made = gl::Framebuffer::create(device_, {}, gl::Attachment(*t, 0, layer), key);
   if (!made) return fail(made.error());
   const GLuint id = made->id();
   framebuffers_.emplace(key, std::move(*made));

@@ -9,6 +9,7 @@
 #include "gl/objects.h"
 #include "gl/program.h"
 #include "gpu_scene/gpu_scene.h"
+#include "gpu_scene/shadows.h"
 #include "scene/transparency.h"
 
 namespace burnish::gpu_scene {
@@ -25,6 +26,10 @@ class TargetPool {
   [[nodiscard]] const gl::Texture* texture(std::string_view name) const;
   /// A framebuffer of the named targets (colours in order; depth optional), made on first use.
   Result<GLuint> framebuffer(std::initializer_list<std::string_view> colors, std::string_view depth = {});
+  /// A framebuffer of one layer of a depth target that is an array.
+  Result<GLuint> layerFramebuffer(std::string_view depth, int layer);
+  /// Counts how often a texture of that name has been made: what was drawn into it is lost when it moves. 0: there is none.
+  [[nodiscard]] std::uint64_t serial(std::string_view name) const;
   /// A framebuffer of one mip level of a target that the plan lists.
   Result<GLuint> levelFramebuffer(std::string_view color, int level);
 
@@ -33,10 +38,12 @@ class TargetPool {
     TargetPlan plan;
     gl::Texture texture;
     int idle = 0;  // frames since a plan listed it
+    std::uint64_t serial = 0;
   };
   gl::Device& device_;
   std::map<std::string, Entry, std::less<>> entries_;
   std::map<std::string, gl::Framebuffer, std::less<>> framebuffers_;
+  std::uint64_t made_ = 0;
 };
 
 /// The plan's programs, linked.
@@ -59,6 +66,7 @@ gl::ProgramSource sourceOf(const ProgramPlan& plan);
 /// Buffers that each view fills anew. Those that not every plan wants are made on first use.
 struct FrameBuffers {
   gl::Buffer frame, draws;
+  ShadowBindings shadows;  ///< empty until a plan has shadows
   std::size_t drawStride = 256;
   static Result<FrameBuffers> create(gl::Device& device);
   /// Vertex formats of the geometry programs, made when first asked for.
@@ -87,6 +95,7 @@ struct FrameContext {
   std::span<const scene::Batch> batches;  ///< of `visible`; what is drawn by one call each
   const scene::LightSet& lights;
   std::span<const scene::TransparentGroup> transparent{};  ///< farthest first
+  scene::ShadowSet* shadows = nullptr;    ///< of the first of `lights`; the pass "shadow_maps" says in which layers its maps are
   const GpuEnvironment* environment = nullptr;
   glm::ivec2 size{0};      ///< of the target
   GLuint output = 0;       ///< the target's framebuffer

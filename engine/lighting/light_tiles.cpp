@@ -166,13 +166,15 @@ void TileCuller::markDetail(const scene::ViewFrame& view, const DetailBox& box) 
 }
 
 // Two counting sorts: pairs by tile, then tiles by program.
-void TileCuller::buildLists(std::span<const scene::LocalLight> lights) {
+void TileCuller::buildLists(std::span<const scene::LocalLight> lights, std::size_t shadowed) {
   const std::size_t tiles = slices_.size();
   counts_.assign(tiles, 0);
   spots_.assign(tiles, 0);
+  shadowed_.assign(tiles, 0);
   for (const Pair& p : pairs_) {
     ++counts_[p.tile];
     spots_[p.tile] |= lights[p.light - 1u].cosOuter > -1;
+    shadowed_[p.tile] = std::uint16_t(shadowed_[p.tile] + (p.light <= shadowed));
   }
   offsets_.resize(tiles);
   std::uint32_t total = 0;
@@ -193,7 +195,7 @@ void TileCuller::buildLists(std::span<const scene::LocalLight> lights) {
     const std::uint8_t detail = bitsOf(details);
     for (std::size_t i = 0; i < tiles; ++i) {
       if (slices_[i] == 0 || detail_[i] != detail) continue;
-      const int own = spots_[i] ? plan::kLoopSpots : detail > 0 && counts_[i] > 0 ? plan::kLoop : bucketOf(counts_[i]);
+      const int own = shadowed_[i] ? plan::kLoopShadows : spots_[i] ? plan::kLoopSpots : detail > 0 && counts_[i] > 0 ? plan::kLoop : bucketOf(counts_[i]);
       if (own != bucket) continue;
       const std::size_t first = lists_.entries.size();
       for (std::uint32_t k = 0; k < counts_[i]; ++k) {
@@ -202,7 +204,7 @@ void TileCuller::buildLists(std::span<const scene::LocalLight> lights) {
         seen[light] = 1;
       }
       if (bucket > 0) lists_.entries.resize(first + std::size_t(bucket), 0);
-      lists_.tiles.emplace_back(int(i) % columns_, int(i) / columns_, int(first), int(lists_.entries.size() - first));
+      lists_.tiles.emplace_back(int(i) % columns_, int(i) / columns_, int(first), int(lists_.entries.size() - first) + (int(shadowed_[i]) << 16));
     }
     g.count = int(lists_.tiles.size()) - g.first;
     if (g.count > 0) lists_.groups.push_back(g);
@@ -210,6 +212,7 @@ void TileCuller::buildLists(std::span<const scene::LocalLight> lights) {
   for (int bucket : plan::kTileBuckets) addGroup(bucket, {false, false});
   addGroup(plan::kLoop, {false, false});
   addGroup(plan::kLoopSpots, {false, false});
+  addGroup(plan::kLoopShadows, {false, false});
   for (plan::Details details : plan::kDetailClasses)
     for (int bucket : plan::kDetailBuckets) addGroup(bucket, details);
   lists_.lightsInView = int(std::count(seen.begin(), seen.end(), 1));
@@ -223,7 +226,7 @@ void TileCuller::listBackground(std::span<const TileDepth> depths) {
   lists_.background.count = int(lists_.tiles.size()) - lists_.background.first;
 }
 
-const TileLists& TileCuller::cull(const scene::ViewFrame& view, std::span<const TileDepth> depths, std::span<const scene::LocalLight> lights, std::span<const DetailBox> details) {
+const TileLists& TileCuller::cull(const scene::ViewFrame& view, std::span<const TileDepth> depths, std::span<const scene::LocalLight> lights, std::size_t shadowed, std::span<const DetailBox> details) {
   columns_ = (view.viewport.z + TILE_SIZE - 1) / TILE_SIZE;
   rows_ = (view.viewport.w + TILE_SIZE - 1) / TILE_SIZE;
   near_ = view.near;
@@ -232,7 +235,7 @@ const TileLists& TileCuller::cull(const scene::ViewFrame& view, std::span<const 
   for (std::size_t i = 0; i < lights.size(); ++i) cullLight(view, lights[i], std::uint16_t(i + 1));
   detail_.assign(depths.size(), 0);
   for (const DetailBox& box : details) markDetail(view, box);
-  buildLists(lights);
+  buildLists(lights, shadowed);
   listBackground(depths);
   return lists_;
 }

@@ -22,9 +22,9 @@ struct TileDepth {
 /// `depthParams` as ViewFrame's.
 void reduceDepth(const float* depth, int stride, int width, int height, glm::dvec2 depthParams, bool orthographic, std::vector<TileDepth>& out);
 
-/// One tile as the vertex shader reads it: x, y, first entry in the lists, number of entries (padding included).
+/// One tile as the vertex shader reads it: x, y, first entry in the lists, number of entries (padding included) + 65536 · those that cast shadows (plan::kLoopShadows alone).
 using TileVertex = glm::ivec4;
-/// Tiles that are shaded by one program: lists of `bucket` lights (plan::kTileBuckets), plan::kLoop or plan::kLoopSpots.
+/// Tiles that are shaded by one program: lists of `bucket` lights (plan::kTileBuckets), plan::kLoop, kLoopSpots or kLoopShadows.
 struct TileGroup {
   int bucket = 0;
   int first = 0, count = 0;  ///< in tiles
@@ -46,8 +46,8 @@ struct TileLists {
 class TileCuller {
  public:
   /// No false negatives: every light whose sphere (and cone) touches a surface between the tile's depths is listed. Lights past 65534 are left out by the caller.
-  /// `details`: around brushed and rough surfaces; tiles that may show one go into groups of their own.
-  const TileLists& cull(const scene::ViewFrame& view, std::span<const TileDepth> depths, std::span<const scene::LocalLight> lights, std::span<const DetailBox> details = {});
+  /// `shadowed`: so many of the first lights cast shadows. `details`: around brushed and rough surfaces; tiles that may show one go into groups of their own.
+  const TileLists& cull(const scene::ViewFrame& view, std::span<const TileDepth> depths, std::span<const scene::LocalLight> lights, std::size_t shadowed = 0, std::span<const DetailBox> details = {});
 
  private:
   struct Pair {
@@ -57,7 +57,7 @@ class TileCuller {
   void boundTiles(const scene::ViewFrame& view, std::span<const TileDepth> depths);
   void cullLight(const scene::ViewFrame& view, const scene::LocalLight& light, std::uint16_t index);
   void markDetail(const scene::ViewFrame& view, const DetailBox& box);
-  void buildLists(std::span<const scene::LocalLight> lights);
+  void buildLists(std::span<const scene::LocalLight> lights, std::size_t shadowed);
   void listBackground(std::span<const TileDepth> depths);
 
   int columns_ = 0, rows_ = 0;
@@ -72,6 +72,7 @@ class TileCuller {
   std::vector<Pair> pairs_;
   std::vector<std::uint32_t> counts_, offsets_;
   std::vector<std::uint8_t> spots_;
+  std::vector<std::uint16_t> shadowed_;  // lights of each tile that cast shadows
   std::vector<std::uint16_t> sorted_;
   TileLists lists_;
 };

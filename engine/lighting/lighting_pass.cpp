@@ -50,6 +50,7 @@ Result<void> LightingPass::readTileDepths(FrameContext& c) {
 }
 
 Result<void> LightingPass::uploadLights(FrameContext& c) {
+  const std::size_t shadowed = c.shadows ? c.shadows->locals.size() : 0;
   std::vector<glm::vec4> texels(LIGHT_TEXELS * (c.lights.local.size() + 1), glm::vec4(0));
   texels[0] = {0, 0, 1, 0};  // the black light that pads lists
   for (std::size_t i = 0; i < c.lights.local.size(); ++i) {
@@ -58,7 +59,11 @@ Result<void> LightingPass::uploadLights(FrameContext& c) {
     t[0] = glm::vec4(l.position, l.invRange4);
     t[1] = glm::vec4(glm::min(l.intensity * c.preExposure, glm::vec3(1e18f)), l.bias);
     t[2] = glm::vec4(l.axis, l.spotScale);
-    t[3] = glm::vec4(l.spotOffset, 0, 0, 0);
+    t[3] = glm::vec4(l.spotOffset, i < shadowed ? float(i + 1) : 0.0f, l.sourceRadius, 0);
+  }
+  for (std::size_t i = 0; i < shadowed; ++i) {
+    const std::vector<glm::vec4> record = gpu_scene::shadowRecord(*c.shadows, c.shadows->locals[i], c.view.eye);
+    texels.insert(texels.end(), record.begin(), record.end());
   }
   return fill(device_, lights_, GL_RGBA32F, std::as_bytes(std::span(texels)), "lights");
 }
@@ -99,7 +104,7 @@ std::vector<DetailBox> detailBoxes(const FrameContext& c) {
 
 Result<void> LightingPass::buildTiles(FrameContext& c) {
   if (auto read = readTileDepths(c); !read) return read;
-  lists_ = &culler_.cull(c.view, tileDepths_, c.lights.local, detailBoxes(c));
+  lists_ = &culler_.cull(c.view, tileDepths_, c.lights.local, c.shadows ? c.shadows->locals.size() : 0, detailBoxes(c));
   c.stats.lightsInView += lists_->lightsInView;
   const bool local = c.plan.on("local_lights");
   if (local)
@@ -165,6 +170,7 @@ Result<void> LightingPass::bindForward(FrameContext& c) {
 Result<void> LightingPass::bindLights(FrameContext& c) {
   c.device.gl.BindSamplers(0, 10, nullptr);
   if (c.plan.on("local_lights")) lights_.bind(UNIT_LIGHTS);
+  gpu_scene::bindShadows(c);
   return bindSurroundings(c, UNIT_FORWARD_ENVIRONMENT);
 }
 
@@ -189,6 +195,7 @@ Result<void> LightingPass::shadeTiles(FrameContext& c) {
     lights_.bind(UNIT_LIGHTS);
     entries_.bind(UNIT_LIGHT_LISTS);
   }
+  gpu_scene::bindShadows(c);
   bindTiles();
   for (const TileGroup& g : lists_->groups) {
     plan::LightingVariant lighting{int(c.lights.directional.size()), environment, occlusion, c.view.orthographic};

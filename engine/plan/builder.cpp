@@ -10,7 +10,7 @@ namespace burnish::plan {
 namespace {
 
 // The frame, from top to bottom.
-constexpr Step kSteps[] = {addDeformation, addHostDepth, addGBuffer, addForward, addTiles, addOcclusion, addLightClear, addLighting, addEmissive, addBackground, addHostDraw, addTransparent, addExposure, addNonfiniteCount, addBloom, addToneMapping, addEdgeAntialiasing, addDebugView, addDepthOut};
+constexpr Step kSteps[] = {addDeformation, addShadowMaps, addHostDepth, addGBuffer, addForward, addTiles, addOcclusion, addLightClear, addLighting, addEmissive, addBackground, addHostDraw, addTransparent, addExposure, addNonfiniteCount, addBloom, addToneMapping, addEdgeAntialiasing, addDebugView, addDepthOut};
 
 template <class T>
 void addOnce(std::vector<T>& list, const T& item) {
@@ -48,7 +48,7 @@ void Builder::useScreen(PassPlan& pass, std::string name, std::string fragment, 
   use(pass, {std::move(name), "post/screen.vert", std::move(fragment), std::move(defines)});
 }
 
-void Builder::target(std::string_view name, std::string_view format, std::initializer_list<std::string_view> effects, glm::ivec2 size, int levels) {
+void Builder::target(std::string_view name, std::string_view format, std::initializer_list<std::string_view> effects, glm::ivec2 size, int levels, int layers) {
   const auto found = std::find_if(plan_.targets.begin(), plan_.targets.end(), [&](const TargetPlan& t) { return t.name == name; });
   const bool known = found != plan_.targets.end();
   TargetPlan& t = known ? *found : plan_.targets.emplace_back();
@@ -60,8 +60,9 @@ void Builder::target(std::string_view name, std::string_view format, std::initia
   t.width = size.x;
   t.height = size.y;
   t.levels = levels;
+  t.layers = layers;
   t.bytes = 0;
-  for (int k = 0; k < levels; ++k) t.bytes += std::uint64_t(bytesOf(format)) * std::uint64_t(std::max(size.x >> k, 1)) * std::uint64_t(std::max(size.y >> k, 1));
+  for (int k = 0; k < levels; ++k) t.bytes += std::uint64_t(bytesOf(format)) * std::uint64_t(std::max(size.x >> k, 1)) * std::uint64_t(std::max(size.y >> k, 1)) * std::uint64_t(std::max(layers, 1));
 }
 
 FramePlan Builder::finish() {

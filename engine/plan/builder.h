@@ -16,7 +16,7 @@ class Builder {
   /// A program of post/screen.vert's triangle.
   void useScreen(PassPlan& pass, std::string name, std::string fragment, std::vector<std::string> defines);
   /// A target of the frame's size, or of one given. A second call with the same name adds its effects to the first's.
-  void target(std::string_view name, std::string_view format, std::initializer_list<std::string_view> effects, glm::ivec2 size = {0, 0}, int levels = 1);
+  void target(std::string_view name, std::string_view format, std::initializer_list<std::string_view> effects, glm::ivec2 size = {0, 0}, int levels = 1, int layers = 0);
   /// The plan, with every effect's passes, programs, targets and bytes filled in.
   FramePlan finish();
 
@@ -34,6 +34,7 @@ std::span<const Step> steps();
 // passes_geometry.cpp
 void addHostDepth(Builder& b);
 void addDeformation(Builder& b);
+void addShadowMaps(Builder& b);
 void addGBuffer(Builder& b);
 void addForward(Builder& b);
 void addEmissive(Builder& b);

@@ -52,6 +52,16 @@ Verdict directionalLights(const Situation& s) {
 Verdict localLights(const Situation& s) {
   return provided(countedLights(s, Call::Local, s.facts.localLights, "a point or spot light would call for it"), (s.final() || s.viewsLights()) && s.hasDepth(), notLit(s));
 }
+Verdict shadows(const Situation& s) {
+  Verdict v{false, s.quality.shadow == Shadow::None ? "shadow=none turns it off" : "a light that casts shadows would call for it"};
+  const std::string otherwise = v.reason;
+  for (const auto& [call, lights] : {std::pair(Call::LocalShadows, "local_lights"), std::pair(Call::SunShadows, "directional_lights")}) {
+    const Verdict called = sceneCalls(s, call, otherwise);
+    if (called.on && s.on(lights)) v = {true, fmt::format("{} map{}: {}", s.shadowLayers(), s.shadowLayers() == 1 ? "" : "s", called.reason), v.objects + called.objects};
+    if (!called.on && !v.on && called.reason != otherwise) v = called;
+  }
+  return provided(v, s.final() && s.hasDepth(), notLit(s));
+}
 Verdict environmentLighting(const Situation& s) {
   const bool quality = s.quality.environmentSpecular != EnvironmentSpecular::None || s.quality.ambient != Ambient::None;
   const Verdict called = sceneCalls(s, Call::Environment, "an environment map or colour would call for it");
@@ -141,6 +151,7 @@ constexpr EffectRow kRows[] = {
     {{"fog", CalledBy::Scene, "air that takes light and scatters it"}, fog, false},
     {{"directional_lights", CalledBy::Scene, "suns"}, directionalLights, false},
     {{"local_lights", CalledBy::Scene, "point and spot lights"}, localLights, false},
+    {{"shadows", CalledBy::Scene, "what stands in a light keeps it from what is behind"}, shadows, false},
     {{"environment_lighting", CalledBy::Scene, "light of the surroundings"}, environmentLighting, false},
     {{"background", CalledBy::Scene, "the surroundings where nothing was drawn"}, background, false},
     {{"baked_occlusion", CalledBy::Scene, "occlusion maps"}, bakedOcclusion, false},

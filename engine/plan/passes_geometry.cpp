@@ -1,12 +1,27 @@
 // Passes that draw instances.
+#include <algorithm>
+
 #include "plan/builder.h"
 
 namespace burnish::plan {
 
 void addDeformation(Builder& b) {
-  if (!b.s.on("deformation")) return;
+  if (!b.s.on("deformation") || b.s.facts.deformVariants.empty()) return;
   PassPlan& pass = b.pass("deform", {"deformation"}, {"meshes", "skins"}, {"deformed vertices"});
   for (const DeformVariant& v : b.s.facts.deformVariants) b.use(pass, deformProgram(v));
+}
+
+// What casts is drawn where it is not in view, and deformed before.
+void addShadowMaps(Builder& b) {
+  const Situation& s = b.s;
+  const int layers = s.shadowLayers();
+  if (!s.on("shadows") || layers == 0) return;
+  const bool deforms = s.on("deformation") && !s.facts.shadowDeformVariants.empty();
+  PassPlan& pass = deforms ? b.pass("shadow_maps", {"shadows", "deformation"}, {"meshes", "materials"}, {"shadow_maps"}) : b.pass("shadow_maps", {"shadows"}, {"meshes", "materials"}, {"shadow_maps"});
+  if (deforms)
+    for (const DeformVariant& v : s.facts.shadowDeformVariants) b.use(pass, deformProgram(v));
+  for (const ShadowVariant& v : s.facts.shadowVariants) b.use(pass, shadowProgram(v));
+  b.target("shadow_maps", "DEPTH_COMPONENT32F", {"shadows"}, glm::ivec2(std::clamp(s.quality.shadowResolution, 16, 8192)), 1, layers);
 }
 
 void addHostDepth(Builder& b) {
@@ -46,6 +61,7 @@ void addForward(Builder& b) {
   const bool environment = s.on("environment_lighting");
   if (needsCube(s.quality, environment)) pass.reads.push_back("environment cube");
   if (needsDfg(s.quality, environment)) pass.reads.push_back("dfg");
+  if (s.shadows().rung != Shadow::None) pass.reads.push_back("shadow_maps");
   for (bool orthographic : s.projections())
     for (const GeometryVariant& v : s.facts.variants) b.use(pass, forwardProgram(v, s.quality, s.drawnLighting(orthographic)));
 }

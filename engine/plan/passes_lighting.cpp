@@ -66,6 +66,7 @@ void addLighting(Builder& b) {
   }
   if (needsCube(s.quality, environment)) pass.reads.push_back("environment cube");
   if (needsDfg(s.quality, environment)) pass.reads.push_back("dfg");
+  if (s.shadows().rung != Shadow::None) pass.reads.push_back("shadow_maps");
   for (bool orthographic : s.projections()) {
     for (int bucket : kTileBuckets) {
       if (bucket > 0 && !local) break;
@@ -74,13 +75,14 @@ void addLighting(Builder& b) {
     }
     if (local) b.use(pass, lightingProgram(kLoop, s.quality, s.lighting(orthographic)));
     if (local && s.facts.spots) b.use(pass, lightingProgram(kLoopSpots, s.quality, s.lighting(orthographic)));
+    if (s.shadows().locals) b.use(pass, lightingProgram(kLoopShadows, s.quality, s.lighting(orthographic)));
     if (!s.detailTarget()) continue;
     LightingVariant detailed = s.lighting(orthographic);
     for (Details d : kDetailClasses) {
       if ((d.brushed && !s.on("anisotropy")) || (d.rough && !s.on("rough_diffuse"))) continue;
       detailed.details = d;
       for (int bucket : kDetailBuckets)
-        if (bucket == 0 || (local && (bucket == kLoop || s.facts.spots))) b.use(pass, lightingProgram(bucket, s.quality, detailed));
+        if (bucket == 0 || (local && (bucket == kLoop || (bucket == kLoopSpots && s.facts.spots) || (bucket == kLoopShadows && s.shadows().locals)))) b.use(pass, lightingProgram(bucket, s.quality, detailed));
     }
   }
 }

@@ -20,6 +20,7 @@ void addTransparent(Builder& b) {
   if (s.on("local_lights")) pass.reads.emplace_back("lights");
   if (needsCube(s.quality, environment)) pass.reads.push_back("environment cube");
   if (needsDfg(s.quality, environment)) pass.reads.push_back("dfg");
+  if (s.shadows().rung != Shadow::None) pass.reads.push_back("shadow_maps");
   if (glass && s.facts.refracts) {
     b.target("scene_color", s.options.output == Output::Linear ? "RGBA32F" : "RGBA16F", {"glass"}, {0, 0}, s.facts.blurs ? levelsOf(s.options.size) : 1);
     pass.writes.push_back("scene_color");

@@ -116,6 +116,12 @@ constexpr Rung kPath[] = {
     {"forward", "each surface where it is drawn, every light: unquantised reference", "docs/shading.md, section 4"},
 };
 
+constexpr Rung kShadow[] = {
+    {"none", "light passes through everything", "the term left out"},
+    {"tap", "one lookup, filtered over 2 x 2 texels", "Williams 1978; Reeves, Salesin and Cook 1987"},
+    {"pcf", "3 x 3 filtered lookups: edges about three texels wide", "Reeves, Salesin and Cook 1987"},
+    {"pcss", "edges as soft as the light's size makes them", "Fernando 2005, Percentage-Closer Soft Shadows"},
+};
 constexpr Rung kAntialiasing[] = {
     {"none", "one sample a pixel", "the term left out"},
     {"edge", "edges found in the developed picture and smoothed along their length", "Lottes 2009, FXAA; Reshetov 2009, Morphological Antialiasing"},
@@ -142,6 +148,7 @@ constexpr Term kTerms[] = {
     {"anisotropy", "highlights of brushed materials", kAnisotropy},
     {"rough-diffuse", "diffuse light on materials that say how rough they are", kRoughDiffuse},
     {"path", "where surfaces are shaded", kPath},
+    {"shadow", "shadows of lights that cast them", kShadow, true},
     {"antialiasing", "edges of the picture", kAntialiasing, true},
     {"bloom", "light that scatters in the lens", kBloom, true},
 };
@@ -166,7 +173,8 @@ auto withMember(Q& q, std::size_t term, F&& f) {
     case 13: return f(q.anisotropy);
     case 14: return f(q.roughDiffuse);
     case 15: return f(q.path);
-    case 16: return f(q.antialiasing);
+    case 16: return f(q.shadow);
+    case 17: return f(q.antialiasing);
     default: return f(q.bloom);
   }
 }
@@ -220,6 +228,7 @@ Result<void> setPreset(Quality& quality, std::string_view name) {
     q.directOcclusion = DirectOcclusion::Specular;
     q.anisotropy = Anisotropy::None;
     q.roughDiffuse = RoughDiffuse::None;
+    q.shadow = Shadow::Tap;
   } else if (name == "exact") {
     q.distribution = Distribution::Ggx;
     q.geometry = Geometry::Smith;
@@ -227,6 +236,7 @@ Result<void> setPreset(Quality& quality, std::string_view name) {
     q.diffuse = Diffuse::OrenNayarEnergy;
     q.compensation = Compensation::MultipleScattering;
     q.environmentSpecular = EnvironmentSpecular::Sampled;
+    q.shadow = Shadow::Pcss;
   } else if (name != "default") {
     return fail(std::string(name), "is no preset", fmt::format("choose one of: {}", fmt::join(kPresets, ", ")));
   }
@@ -237,6 +247,10 @@ Result<void> setPreset(Quality& quality, std::string_view name) {
   q.bloom = quality.bloom;
   q.bloomShare = quality.bloomShare;
   q.occlusionRadius = quality.occlusionRadius;
+  q.shadowResolution = quality.shadowResolution;
+  q.shadowCascades = quality.shadowCascades;
+  q.shadowDistance = quality.shadowDistance;
+  q.shadowMaps = quality.shadowMaps;
   quality = q;
   return {};
 }

@@ -89,6 +89,24 @@ void addLights(const Scene& scene, const scene::LightSet& lights, Facts& facts) 
   facts.localLights = std::max(facts.localLights, int(lights.local.size()));
 }
 
+void addShadows(const Scene& scene, const scene::ShadowSet& shadows, Facts& facts) {
+  for (std::size_t i = 0; i < shadows.callers.size(); ++i) facts.call(i < shadows.suns.size() ? Call::SunShadows : Call::LocalShadows, "light", shadows.callers[i], " casts shadows");
+  facts.shadowSuns = std::max(facts.shadowSuns, int(shadows.suns.size()));
+  std::vector<bool> counted(shadows.casters.size());
+  for (const scene::ShadowMap& map : shadows.maps) {
+    (map.sun ? facts.sunMaps : facts.localMaps).insert(map.content);
+    for (const std::uint32_t i : map.casters) {
+      const scene::Placed& p = shadows.casters[i].placed;
+      const Material* m = scene.materials.get(p.instance->material);
+      facts.shadowVariants.insert(m ? shadowVariantOf(*m, *p.mesh) : ShadowVariant{});
+      if (!p.pose) continue;
+      facts.call(Call::Deformation, "instance", p.instance->name, p.pose->skinned ? " has a skin" : " has morph weights", counted[i] || shadows.casters[i].seen ? 0 : 1);
+      counted[i] = true;
+      facts.shadowDeformVariants.insert({p.pose->skinned, p.pose->morphed});
+    }
+  }
+}
+
 void addEnvironment(const Environment& e, Facts& facts) {
   if (!(e.scale > 0) || (e.map.empty() && !(e.color.r > 0 || e.color.g > 0 || e.color.b > 0))) return;
   const std::string why = e.map.empty() ? "the environment's colour" : "the environment map";
@@ -114,6 +132,7 @@ void look(const Scene& scene, const scene::Derived& derived, const View& view, g
   out.transparent = scene::orderTransparent(scene, derived, out.frame, out.instances);
   out.lights = scene::gatherLights(scene, derived, out.frame, quality, report);
   out.fogDepth = scene::deepestFog(scene, derived, out.frame, out.instances, out.lights);
+  scene::gatherShadows(scene, derived, out.frame, quality, out.instances, scene::Reach::InView, out.lights, report, out.shadows);
 }
 
 void lookEverywhere(const Scene& scene, const scene::Derived& derived, const View& view, glm::ivec2 targetSize, const Quality& quality, Report& report, Seen& out) {
@@ -123,6 +142,7 @@ void lookEverywhere(const Scene& scene, const scene::Derived& derived, const Vie
   out.transparent = scene::orderTransparent(scene, derived, out.frame, out.instances);
   out.lights = scene::gatherLights(scene, derived, out.frame, quality, report, scene::Reach::Everywhere);
   out.fogDepth = scene::deepestFog(scene, derived, out.frame, out.instances, out.lights);
+  scene::gatherShadows(scene, derived, out.frame, quality, out.instances, scene::Reach::Everywhere, out.lights, report, out.shadows);
 }
 
 void Facts::call(Call call, std::string_view kind, const std::string& name, std::string_view because, int count) {
@@ -139,6 +159,7 @@ Facts factsOf(const Scene& scene, std::span<const Seen> views, const Quality& qu
     addGroups(scene, view, allowed, facts);
     addLights(scene, view.lights, facts);
     if (view.fogDepth > scene::kLeastFog) facts.why[std::size_t(Call::Fog)] = "the scene's fog";
+    addShadows(scene, view.shadows, facts);
   }
   addEnvironment(scene.environment, facts);
   if (const auto& sun = scene.environment.sun)
@@ -165,7 +186,21 @@ std::vector<bool> Situation::projections() const {
 }
 
 LightingVariant Situation::lighting(bool orthographic) const {
-  return {on("directional_lights") ? std::min(facts.directionalLights, MAX_DIRECTIONAL) : 0, on("environment_lighting"), on("baked_occlusion") || on("screen_occlusion"), orthographic, developsInPlace() ? int(quality.toneMap) : -1, on("fog"), on("local_lights")};
+  return {on("directional_lights") ? std::min(facts.directionalLights, MAX_DIRECTIONAL) : 0, on("environment_lighting"), on("baked_occlusion") || on("screen_occlusion"), orthographic, developsInPlace() ? int(quality.toneMap) : -1, on("fog"), on("local_lights"), {false, false}, shadows()};
+}
+
+ShadowLighting Situation::shadows() const {
+  if (!on("shadows") || shadowLayers() == 0) return {};
+  ShadowLighting s;
+  s.suns = on("directional_lights") ? facts.shadowSuns : 0;
+  s.locals = on("local_lights") && !facts.localMaps.empty();
+  s.rung = s.suns > 0 || s.locals ? quality.shadow : Shadow::None;
+  return s;
+}
+
+int Situation::shadowLayers() const {
+  const std::size_t suns = on("directional_lights") ? facts.sunMaps.size() : 0, locals = on("local_lights") ? facts.localMaps.size() : 0;
+  return int(suns + locals);
 }
 
 LightingVariant Situation::drawnLighting(bool orthographic) const {

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "plan/variants.h"
+#include "scene/shadows.h"
 #include "scene/transparency.h"
 
 namespace burnish::plan {
@@ -16,6 +17,7 @@ struct Seen {
   std::vector<scene::VisibleInstance> instances;  ///< nearest first, batches brought together
   std::vector<scene::Batch> batches;              ///< of `instances`
   scene::LightSet lights;
+  scene::ShadowSet shadows;                          ///< of the first of `lights`
   std::vector<scene::TransparentGroup> transparent;  ///< farthest first; indices into instances
   double fogDepth = 0;                               ///< no more than so much fog lies before anything in view (optical depth)
 };
@@ -25,12 +27,16 @@ void look(const Scene& scene, const scene::Derived& derived, const View& view, g
 void lookEverywhere(const Scene& scene, const scene::Derived& derived, const View& view, glm::ivec2 targetSize, const Quality& quality, Report& report, Seen& out);
 
 /// What a scene holds that effects are called by.
-enum class Call : std::uint8_t { Geometry, Deformation, TwoSided, AlphaTest, BakedOcclusion, Anisotropy, RoughDiffuse, Emissive, Directional, Local, Environment, Background, AlphaBlend, Glass, Fog, SunDisc, Count };
+enum class Call : std::uint8_t { Geometry, Deformation, TwoSided, AlphaTest, BakedOcclusion, Anisotropy, RoughDiffuse, Emissive, Directional, Local, Environment, Background, AlphaBlend, Glass, Fog, SunDisc, SunShadows, LocalShadows, Count };
 struct Facts {
   std::array<std::string, std::size_t(Call::Count)> why;  ///< the first thing that calls; empty: nothing does
   std::array<int, std::size_t(Call::Count)> objects{};    ///< how many call, instances or lights, counted once a view
   int directionalLights = 0, localLights = 0;              ///< of the view that has most
   bool spots = false;
+  int shadowSuns = 0;                            ///< directional lights with shadows, of the view that has most
+  std::set<std::uint64_t> sunMaps, localMaps;    ///< shadow maps of all views: their contents
+  std::set<ShadowVariant> shadowVariants;        ///< of casters
+  std::set<DeformVariant> shadowDeformVariants;  ///< of casters
   std::set<DeformVariant> deformVariants;
   std::set<GeometryVariant> variants, emissiveVariants;  ///< of opaque surfaces
   std::set<TransparentVariant> blended, glass;
@@ -80,6 +86,9 @@ struct Situation {
   [[nodiscard]] Details details() const { return {on("anisotropy"), on("rough_diffuse")}; }
   /// Of surfaces that are shaded where they are drawn: occlusion found on the screen is none of theirs.
   [[nodiscard]] LightingVariant drawnLighting(bool orthographic) const;
+  [[nodiscard]] ShadowLighting shadows() const;
+  /// Layers of the shadow maps.
+  [[nodiscard]] int shadowLayers() const;
 };
 
 }  // namespace burnish::plan

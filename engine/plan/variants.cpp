@@ -80,6 +80,19 @@ ProgramPlan geometryProgram(GeometryPass pass, GeometryVariant variant, bool occ
   return p;
 }
 
+ShadowVariant shadowVariantOf(const Material& m, const Mesh& mesh) { return {m.alphaTest, m.alphaTest && variantOf(m, mesh, {}).general}; }
+
+ProgramPlan shadowProgram(ShadowVariant v) {
+  ProgramPlan p;
+  p.name = "shadow";
+  if (v.general) p.name += "+general";
+  if (v.alphaTest) p.name += "+alpha";
+  p.vertex = "shadow/caster.vert";
+  p.fragment = "shadow/caster.frag";
+  p.defines = {define("ALPHA_TEST", v.alphaTest), define("GENERAL", v.general)};
+  return p;
+}
+
 OcclusionSamples occlusionSamples(Occlusion rung) {
   switch (rung) {
     case Occlusion::Screen4: return {1, 2};
@@ -113,7 +126,9 @@ bool needsCube(const Quality& q, bool environment) { return environment && q.env
 namespace {
 
 // Everything that lighting/shade.glsl asks for. Rungs of what is off stand at 0, so that changing them links nothing anew.
-std::vector<std::string> shadeDefines(const Quality& q, const LightingVariant& lighting) {
+// `locals`: the program looks up shadows of point and spot lights too.
+std::vector<std::string> shadeDefines(const Quality& q, const LightingVariant& lighting, bool locals) {
+  const bool shadows = lighting.shadows.suns > 0 || locals;
   const shading::Rungs k = rungsOf(q);
   const bool dfg = needsDfg(q, lighting.environment);
   const prefilter::DfgTable table = dfg ? prefilter::dfgTable(prefilter::dfgIndex(k)) : prefilter::DfgTable{};
@@ -136,17 +151,20 @@ std::vector<std::string> shadeDefines(const Quality& q, const LightingVariant& l
           define("RUNG_LOBE", k.lobe),
           define("RUNG_NORMALIZATION", k.normalization),
           define("RUNG_SPECULAR", k.specular),
-          define("RUNG_SPECULAR_OCCLUSION", lighting.occlusion && lighting.environment ? int(q.specularOcclusion) : 0)};
+          define("RUNG_SPECULAR_OCCLUSION", lighting.occlusion && lighting.environment ? int(q.specularOcclusion) : 0),
+          define("SHADOW", shadows ? int(lighting.shadows.rung) : 0),
+          define("SHADOW_LOCALS", locals),
+          define("SHADOW_SUNS", lighting.shadows.suns)};
 }
 
 }  // namespace
 
 ProgramPlan lightingProgram(int bucket, const Quality& quality, const LightingVariant& lighting) {
   ProgramPlan p;
-  p.name = bucket == kLoop ? "lighting/loop" : bucket == kLoopSpots ? "lighting/loop_spots" : fmt::format("lighting/tile{}", bucket);
+  p.name = bucket == kLoop ? "lighting/loop" : bucket == kLoopSpots ? "lighting/loop_spots" : bucket == kLoopShadows ? "lighting/loop_shadows" : fmt::format("lighting/tile{}", bucket);
   p.vertex = "lighting/tile.vert";
   p.fragment = "lighting/tile.frag";
-  p.defines = shadeDefines(quality, lighting);
+  p.defines = shadeDefines(quality, lighting, bucket == kLoopShadows);
   p.defines.push_back(define("ANISOTROPIC", lighting.details.brushed));
   p.defines.push_back(define("DETAIL", lighting.detail()));
   p.defines.push_back(define("ROUGH_DIFFUSE", lighting.details.rough));
@@ -188,7 +206,7 @@ ProgramPlan forwardProgram(GeometryVariant variant, const Quality& quality, cons
   ProgramPlan p = geometryProgram(GeometryPass::GBuffer, variant, lighting.occlusion);
   p.name = "forward" + p.name.substr(std::string_view("gbuffer").size());
   p.fragment = "forward/forward.frag";
-  for (std::string& d : shadeDefines(quality, lighting)) p.defines.push_back(std::move(d));
+  for (std::string& d : shadeDefines(quality, lighting, lighting.shadows.locals)) p.defines.push_back(std::move(d));
   p.defines.push_back(define("LOCAL", lighting.local));
   std::sort(p.defines.begin(), p.defines.end());
   if (lighting.orthographic) p.name += "+ortho";

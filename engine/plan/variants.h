@@ -62,6 +62,14 @@ struct TransparentVariant {
 bool drawnTransparent(const Material& material, bool blend, bool glass);
 TransparentVariant transparentVariantOf(const Material& material, const Mesh& mesh, bool occlusion, Details details);
 
+/// A shadow caster's program: where it has holes it looks its opacity up.
+struct ShadowVariant {
+  bool alphaTest = false, general = false;
+  friend auto operator<=>(const ShadowVariant&, const ShadowVariant&) = default;
+};
+ShadowVariant shadowVariantOf(const Material& material, const Mesh& mesh);
+ProgramPlan shadowProgram(ShadowVariant variant);
+
 /// The passes that draw geometry.
 enum class GeometryPass : std::uint8_t { GBuffer, Emissive, Pick, Forward };
 /// occlusionTarget: the frame has a third target. Not for Emissive and Forward, which emissiveProgram and forwardProgram make.
@@ -73,6 +81,12 @@ struct OcclusionSamples {
 };
 OcclusionSamples occlusionSamples(Occlusion rung);
 
+/// The shadows that lighting looks up.
+struct ShadowLighting {
+  Shadow rung = Shadow::None;
+  int suns = 0;         ///< directional lights that have them: the first ones
+  bool locals = false;  ///< some point and spot lights have them
+};
 /// What the lighting programs of a frame have in common.
 struct LightingVariant {
   int directional = 0;        ///< directional lights
@@ -84,6 +98,7 @@ struct LightingVariant {
   bool local = false;         ///< point and spot lights, in programs that are no tile's
   Details details{false, false};  ///< of what the program's tiles may show
   [[nodiscard]] bool detail() const { return details.brushed || details.rough; }
+  ShadowLighting shadows{};
 };
 /// Fog is there and lit by the surroundings.
 bool fogAmbient(const Quality& quality, const LightingVariant& lighting);
@@ -98,8 +113,9 @@ bool needsCube(const Quality& quality, bool environment);
 inline constexpr int kTileBuckets[] = {0, 1, 2, 3, 4, 6, 8, 10};
 inline constexpr int kLoop = -1;       ///< the program that loops over long lists of point lights
 inline constexpr int kLoopSpots = -2;  ///< the program that loops over lists with spots among them
+inline constexpr int kLoopShadows = -3;  ///< and over lists with lights among them that cast shadows
 /// Tiles that may show brushed or rough surfaces have programs of their own; what is unrolled is the empty list alone, for they are few.
-inline constexpr int kDetailBuckets[] = {0, kLoop, kLoopSpots};
+inline constexpr int kDetailBuckets[] = {0, kLoop, kLoopSpots, kLoopShadows};
 inline constexpr Details kDetailClasses[] = {{true, false}, {false, true}, {true, true}};
 ProgramPlan lightingProgram(int bucket, const Quality& quality, const LightingVariant& lighting);
 /// A transparent surface's program, and the one that finds its depth when layers are peeled.

@@ -24,6 +24,7 @@ Result<void> lit(PassCall& p) {
 Result<void> takeHostDepth(PassCall& p) { return post::takeHostDepth(p.c, *p.target.depthIn); }
 Result<void> giveHostDepth(PassCall& p) { return post::giveHostDepth(p.c, *p.target.depthOut); }
 Result<void> deformPass(PassCall& p) { return gpu_scene::deform(p.c, p.c.visible); }
+Result<void> shadowPass(PassCall& p) { return p.modules.shadows().draw(p.c); }
 Result<void> gbufferPass(PassCall& p) { return gbuffer::drawGBuffer(p.c); }
 Result<void> emissivePass(PassCall& p) { return gbuffer::drawEmissive(p.c); }
 
@@ -96,6 +97,7 @@ struct PassRow {
 };
 constexpr PassRow kPasses[] = {
     {"deform", deformPass},
+    {"shadow_maps", shadowPass},
     {"depth_in", takeHostDepth},
     {"gbuffer", gbufferPass},
     {"forward", forwardPass},
@@ -127,6 +129,11 @@ LightingPass& Modules::lighting() {
 transparency::TransparentPass& Modules::transparent() {
   if (!transparent_) transparent_ = std::make_unique<transparency::TransparentPass>(device_);
   return *transparent_;
+}
+
+shadow::ShadowPass& Modules::shadows() {
+  if (!shadows_) shadows_ = std::make_unique<shadow::ShadowPass>(device_);
+  return *shadows_;
 }
 
 Result<void> runPass(const PassPlan& pass, PassCall& call, gl::FrameTimers& timers) {

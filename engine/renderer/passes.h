@@ -5,6 +5,7 @@
 #include "gl/timers.h"
 #include "gpu_scene/frame.h"
 #include "lighting/lighting_pass.h"
+#include "shadow/shadow_pass.h"
 #include "transparency/transparent_pass.h"
 
 namespace burnish {
@@ -15,11 +16,13 @@ class Modules {
   explicit Modules(gl::Device& device) : device_(device) {}
   lighting::LightingPass& lighting();
   transparency::TransparentPass& transparent();
+  shadow::ShadowPass& shadows();
 
  private:
   gl::Device& device_;
   std::unique_ptr<lighting::LightingPass> lighting_;
   std::unique_ptr<transparency::TransparentPass> transparent_;
+  std::unique_ptr<shadow::ShadowPass> shadows_;
 };
 
 struct PassCall {

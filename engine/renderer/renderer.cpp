@@ -124,9 +124,9 @@ struct Renderer::Impl {
     for (const std::string& text : idleRungs(quality)) report.warn("quality", text);
     for (const std::string& text : heldSettings(quality)) report.warn("quality", text);
   }
-  /// Light lists hold indices of 16 bits, and a buffer texture all lights. The rest is off, on every path alike.
-  void boundLights(scene::LightSet& lights) {
-    const std::size_t most = std::min<std::size_t>(65534, std::size_t(device->caps.maxTextureBufferTexels) / LIGHT_TEXELS - 1);
+  /// Light lists hold indices of 16 bits, and a buffer texture all lights and the records of their shadows. The rest is off, on every path alike.
+  void boundLights(scene::LightSet& lights, const scene::ShadowSet& shadows) {
+    const std::size_t room = std::size_t(device->caps.maxTextureBufferTexels) - SHADOW_TEXELS * shadows.locals.size(), most = std::min<std::size_t>(65534, room / LIGHT_TEXELS - 1);
     if (lights.local.size() <= most) return;
     report.warn("lights", fmt::format("{} point and spot lights reach into view: {} is the limit, those past it are off (give them shorter ranges)", lights.local.size(), most));
     lights.local.resize(most);
@@ -146,7 +146,7 @@ struct Renderer::Impl {
     return o;
   }
   Result<void> checkRequest(const Target& target, std::span<const View> views) const;
-  Result<void> renderView(SceneState& state, const Scene& scene, const plan::Seen& view, const Target& target, const Quality& quality, const RenderRequest& request, FrameStats& stats);
+  Result<void> renderView(SceneState& state, const Scene& scene, plan::Seen& view, const Target& target, const Quality& quality, const RenderRequest& request, FrameStats& stats);
 };
 
 Result<void> Renderer::Impl::checkRequest(const Target& target, std::span<const View> views) const {
@@ -165,7 +165,7 @@ Result<void> Renderer::Impl::checkRequest(const Target& target, std::span<const 
   return {};
 }
 
-Result<void> Renderer::Impl::renderView(SceneState& state, const Scene& scene, const plan::Seen& view, const Target& target, const Quality& quality, const RenderRequest& request, FrameStats& stats) {
+Result<void> Renderer::Impl::renderView(SceneState& state, const Scene& scene, plan::Seen& view, const Target& target, const Quality& quality, const RenderRequest& request, FrameStats& stats) {
   const gpu_scene::GpuEnvironment* environment = nullptr;
   if (plan.on("environment_lighting") || plan.on("background")) {
     auto found = state.gpu.environment(scene, {.cube = plan::reads(plan, "environment cube"), .picture = plan::reads(plan, "environment")}, report);
@@ -173,7 +173,7 @@ Result<void> Renderer::Impl::renderView(SceneState& state, const Scene& scene, c
     environment = *found;
   }
   FrameContext c{.device = *device, .plan = plan, .programs = *programSet, .targets = *targets, .gpuScene = state.gpu, .buffers = buffers, .scene = scene, .quality = quality, .view = view.frame,
-                 .visible = view.instances, .batches = view.batches, .lights = view.lights, .transparent = view.transparent, .environment = environment, .size = target.size, .output = target.framebuffer, .report = report, .stats = stats};
+                 .visible = view.instances, .batches = view.batches, .lights = view.lights, .transparent = view.transparent, .shadows = &view.shadows, .environment = environment, .size = target.size, .output = target.framebuffer, .report = report, .stats = stats};
   const float display = quality.exposureEv ? exposureOf(*quality.exposureEv) : 1;
   if (request.output == Output::Display) c.preExposure = quality.exposureEv ? display : guessedExposure(view.lights, environment, scene.environment.scale);
   if (auto done = gpu_scene::uploadFrameData(c, display); !done) return done;
@@ -228,15 +228,20 @@ Result<FrameStats> Renderer::render(const Scene& scene, std::span<const View> vi
   m.seen.resize(views.size());
   for (std::size_t i = 0; i < views.size(); ++i) {
     plan::look(scene, state.derived, views[i], target.size, quality, m.report, m.seen[i]);
-    m.boundLights(m.seen[i].lights);
+    m.boundLights(m.seen[i].lights, m.seen[i].shadows);
   }
   m.plan = plan::planOf(scene, m.seen, quality, m.device->caps, m.planOptions(target, request), nullptr);
   for (plan::Seen& seen : m.seen) {
     if (!m.plan.on("directional_lights")) seen.lights.directional.clear();
     if (!m.plan.on("local_lights")) seen.lights.local.clear();
-    if (!m.plan.on("deformation"))
-      for (scene::VisibleInstance& v : seen.instances)
-        if (v.pose) scene::makeRigid(scene, state.derived, seen.frame, v);
+    if (!m.plan.on("shadows")) seen.shadows = {};
+    if (!m.plan.on("directional_lights")) scene::dropShadows(seen.shadows, true);
+    if (!m.plan.on("local_lights")) scene::dropShadows(seen.shadows, false);
+    if (m.plan.on("deformation")) continue;
+    for (scene::VisibleInstance& v : seen.instances)
+      if (v.pose) scene::makeRigid(scene, state.derived, seen.frame, v);
+    for (scene::ShadowCaster& caster : seen.shadows.casters)
+      if (caster.placed.pose) scene::makeRigid(scene, state.derived, caster.placed);
   }
   if (m.plan.on("forward_reference") && target.depthIn)
     return fail("target", "it brings depth, which the forward reference path cannot take in", "leave depthIn empty, or use path=deferred and rungs that are not forward-only");

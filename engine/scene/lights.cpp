@@ -15,6 +15,14 @@ bool finite(glm::vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && st
 
 std::string place(const Light& light) { return light.name.empty() ? "an unnamed light" : fmt::format("light '{}'", light.name); }
 
+// A light's size, held at 0 to `most`; what cannot be is 0.
+float sizeOf(const Light& light, float size, const char* name, float most, Report& report) {
+  if (!light.castsShadow || (size >= 0 && size <= most)) return light.castsShadow ? size : 0;
+  const float held = size > most ? most : 0;
+  report.warn(place(light), fmt::format("has {} {:.3g}: {:.3g} is used, 0 to {:.3g} can be", name, size, held, most));
+  return held;
+}
+
 // Where the light ends: at its own range through a window, or where it falls to the threshold.
 void setRange(LocalLight& l, const Light& light, const Quality& quality, Report& report) {
   if (light.range > 0 && std::isfinite(light.range)) {
@@ -65,13 +73,15 @@ LightSet gatherLights(const Scene& scene, const Derived& derived, const ViewFram
       }
       const glm::dvec3 back(world[2]);
       const double length = glm::length(back);
-      set.directional.push_back({id, length > 1e-30 ? glm::vec3(back / length) : glm::vec3(0, 1, 0), power});
+      set.directional.push_back({id, length > 1e-30 ? glm::vec3(back / length) : glm::vec3(0, 1, 0), power, sizeOf(light, light.angularDiameter, "angularDiameter", 3.0f, report), light.castsShadow});
       return;
     }
     LocalLight l;
     l.id = id;
     l.position = glm::vec3(glm::dvec3(world[3]) - frame.eye);
     l.intensity = power;
+    l.sourceRadius = sizeOf(light, light.sourceRadius, "sourceRadius", 1e6f, report);
+    l.castsShadow = light.castsShadow;
     setRange(l, light, quality, report);
     if (light.kind == LightKind::Spot) {
       if (light.outerCone <= 0) return;

@@ -195,30 +195,43 @@ void makeRigid(const Scene& scene, const Derived& derived, const ViewFrame& fram
   setPlacement(v, placement, frame.eye);
 }
 
-void findVisible(const Scene& scene, const Derived& derived, const ViewFrame& frame, std::vector<VisibleInstance>& out, Reach reach) {
-  out.clear();
-  const Frustum frustum(frame);
+void makeRigid(const Scene& scene, const Derived& derived, Placed& p) {
+  p.pose = nullptr;
+  p.placement = scene.nodes.has(p.instance->node) ? derived.world(p.instance->node) : glm::dmat4(1);
+}
+
+void eachPlaced(const Scene& scene, const Derived& derived, glm::dvec3 eye, const std::function<void(const Placed&)>& f) {
   scene.instances.each([&](Id<Instance> id, const Instance& instance) {
     const Mesh* mesh = scene.meshes.get(instance.mesh);
     if (!instance.visible || !mesh || mesh->indices.empty()) return;
     const Pose* pose = derived.pose(id);
     const Bounds& bounds = pose ? pose->bounds : derived.bounds(instance.mesh);
     if (bounds.empty()) return;
-    const glm::dmat4 placement = pose ? pose->placement : scene.nodes.has(instance.node) ? derived.world(instance.node) : glm::dmat4(1);
-    glm::dmat4 world = placement;
-    world[3] -= glm::dvec4(frame.eye, 0);
+    Placed p{id, &instance, mesh, pose, pose ? pose->placement : scene.nodes.has(instance.node) ? derived.world(instance.node) : glm::dmat4(1)};
+    glm::dmat4 world = p.placement;
+    world[3] -= glm::dvec4(eye, 0);
     if (!finite(world)) return;
-    const WorldBox box = boxAt(bounds, placement, frame.eye);
-    if (reach == Reach::InView && !frustum.meetsBox(box.center, box.extent)) return;
+    const WorldBox box = boxAt(bounds, p.placement, eye);
+    p.center = box.center;
+    p.extent = box.extent;
+    f(p);
+  });
+}
+
+void findVisible(const Scene& scene, const Derived& derived, const ViewFrame& frame, std::vector<VisibleInstance>& out, Reach reach) {
+  out.clear();
+  const Frustum frustum(frame);
+  eachPlaced(scene, derived, frame.eye, [&](const Placed& p) {
+    if (reach == Reach::InView && !frustum.meetsBox(p.center, p.extent)) return;
     VisibleInstance v;
-    v.id = id;
-    v.instance = &instance;
-    v.mesh = mesh;
-    v.pose = pose;
-    v.distance = float(glm::length(box.center));
-    v.center = box.center;
-    v.extent = box.extent;
-    setPlacement(v, placement, frame.eye);
+    v.id = p.id;
+    v.instance = p.instance;
+    v.mesh = p.mesh;
+    v.pose = p.pose;
+    v.distance = float(glm::length(p.center));
+    v.center = p.center;
+    v.extent = p.extent;
+    setPlacement(v, p.placement, frame.eye);
     out.push_back(v);
   });
   std::stable_sort(out.begin(), out.end(), [](const VisibleInstance& a, const VisibleInstance& b) { return a.distance < b.distance; });

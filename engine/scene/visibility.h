@@ -3,6 +3,7 @@
 #pragma once
 #include <burnish/plan.h>
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -92,6 +93,19 @@ struct VisibleInstance {
 bool setPlacement(VisibleInstance& instance, const glm::dmat4& world, glm::dvec3 eye);
 /// Takes the pose away: the mesh as it is, at the instance's node.
 void makeRigid(const Scene& scene, const Derived& derived, const ViewFrame& frame, VisibleInstance& instance);
+/// An instance that can be drawn, and where it is.
+struct Placed {
+  Id<Instance> id;
+  const Instance* instance = nullptr;
+  const Mesh* mesh = nullptr;
+  const Pose* pose = nullptr;  ///< nullptr: it is rigid
+  glm::dmat4 placement{1};     ///< of its vertices, to the world
+  glm::dvec3 center{0}, extent{0};  ///< its box: middle relative to the eye, half extents along the world's axes
+};
+/// Every visible instance with a mesh, bounds and a finite transform, in order of the table.
+void eachPlaced(const Scene& scene, const Derived& derived, glm::dvec3 eye, const std::function<void(const Placed&)>& f);
+/// Takes the pose away: the mesh as it is, at the instance's node. The box stays.
+void makeRigid(const Scene& scene, const Derived& derived, Placed& placed);
 /// Instances whose bounds meet the frustum, sorted by distance. Non-finite transforms are left out.
 void findVisible(const Scene& scene, const Derived& derived, const ViewFrame& frame, std::vector<VisibleInstance>& out, Reach reach = Reach::InView);
 
@@ -110,6 +124,8 @@ struct DirectionalLight {
   Id<Light> id;
   glm::vec3 toLight{0, 1, 0};
   glm::vec3 illuminance{0};  ///< lux
+  float angularDiameter = 0;  ///< radians
+  bool castsShadow = false;
 };
 /// A point or spot light, relative to the eye.
 struct LocalLight {
@@ -121,6 +137,8 @@ struct LocalLight {
   glm::vec3 axis{0, -1, 0};
   float spotScale = 0, spotOffset = 1;
   float cosOuter = -2;     ///< -2: a point light
+  float sourceRadius = 0;  ///< metres
+  bool castsShadow = false;
 };
 struct LightSet {
   std::vector<DirectionalLight> directional;  ///< at most MAX_DIRECTIONAL

@@ -16,11 +16,12 @@ using glm::vec3;
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInfinity = std::numeric_limits<float>::infinity();
 
 // On both paths: the deferred one stops at the G-buffer what is no number, the forward one must not need that.
-Result<Finding> nonfinite(const ProcAddress& gl, Renderer& renderer, const Scene& scene, const std::string& where) {
+Result<Finding> nonfinite(const ProcAddress& gl, Renderer& renderer, const Scene& scene, const std::string& where, Shadow shadow = Shadow::Pcf) {
   Finding found;
   for (const Path path : {Path::Deferred, Path::Forward}) {
     Quality quality;
     quality.path = path;
+    quality.shadow = shadow;
     const auto p = draw(gl, renderer, scene, lookAt({0, 0.5, 4}, {0, 0, 0}, {0, 1, 0}, 0.7f), {64, 64}, {}, quality);
     if (!p) return fail(p.error());
     if (p->nonfinite && found.value == 0) found.where = where + (path == Path::Forward ? ", forward path" : "");
@@ -185,6 +186,11 @@ Result<Finding> hardLights(const ProcAddress& gl, Renderer& renderer) {
         addLight(scene, light, {0, 1, 2}, {0, -1, -2});
         addLight(scene, light, {0, 0, 0}, {0, 0, 1});   // inside
         sum.add(nonfinite(gl, renderer, scene, fmt::format("cone {:g} to {:g}, range {:g}", inner, outer, range)));
+        if (inner != 0.5f) continue;
+        std::vector<Id<Light>> lights;
+        scene.lights.each([&](Id<Light> id, const Light&) { lights.push_back(id); });
+        for (const Id<Light> id : lights) scene.lights.edit(id)->castsShadow = true;
+        for (const Shadow shadow : {Shadow::Tap, Shadow::Pcf, Shadow::Pcss}) sum.add(nonfinite(gl, renderer, scene, fmt::format("shadows, cone {:g} to {:g}, range {:g}", inner, outer, range), shadow));
       }
   return sum.result();
 }

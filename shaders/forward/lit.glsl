@@ -1,5 +1,5 @@
 // What the forward programs share: the surface at this fragment and its light from every light of the scene.
-// Definitions: DIRECTIONAL (count), FOG, LOCAL (1: point and spot lights), ORTHOGRAPHIC, those of gbuffer/fetch.glsl and of lighting/shade.glsl.
+// Definitions: DIRECTIONAL (count), FOG, LOCAL (1: point and spot lights), ORTHOGRAPHIC, those of interface/shadow.glsl (SHADOW 0: none), of gbuffer/fetch.glsl and of lighting/shade.glsl.
 #define ENVIRONMENT_UNIT UNIT_FORWARD_ENVIRONMENT
 #include "shading/bridge.h"
 #include "shading/all.h"
@@ -20,6 +20,9 @@ float lastLevel() { return frame.environment.x; }
 #include "lighting/shade.glsl"
 #if FOG
 #include "interface/fog.glsl"
+#endif
+#if SHADOW
+#include "interface/shadow.glsl"
 #endif
 
 Surface surfaceHere(Fetched f, vec3 toEye) {
@@ -52,10 +55,20 @@ vec3 positionHere(out vec3 toEye) {
 // Radiance toward the eye from directional, point and spot lights. row: findEnergy's.
 vec3 litByLights(Surface m, vec3 p, float row, float occlusion) {
   vec3 sum = vec3(0.0);
-  for (int i = 0; i < DIRECTIONAL; ++i) sum += shadeLight(m, frame.directional[2 * i].xyz, row, occlusion) * frame.directional[2 * i + 1].rgb;
+#if SHADOW_SUNS > 0
+  for (int i = 0; i < SHADOW_SUNS; ++i) sum += shadeLight(m, frame.directional[2 * i].xyz, row, occlusion) * (frame.directional[2 * i + 1].rgb * sunVisible(i, p, m.n));
+#endif
+  for (int i = SHADOW_SUNS; i < DIRECTIONAL; ++i) sum += shadeLight(m, frame.directional[2 * i].xyz, row, occlusion) * frame.directional[2 * i + 1].rgb;
 #if LOCAL
-  int count = int(frame.environment.y);
-  for (int i = 1; i <= count; ++i) {
+  int count = int(frame.environment.y), first = 1;
+#if SHADOW_LOCALS
+  for (; first <= int(shadows.params.z); ++first) {
+    vec4 place = texelFetch(lights, first * LIGHT_TEXELS), more = texelFetch(lights, first * LIGHT_TEXELS + 3);
+    vec3 one = punctual(m, p, place, texelFetch(lights, first * LIGHT_TEXELS + 1), row, occlusion) * inCone(p, place, texelFetch(lights, first * LIGHT_TEXELS + 2), more.x);
+    sum += one * localVisible(place.xyz, more, p, m.n);
+  }
+#endif
+  for (int i = first; i <= count; ++i) {
     vec4 place = texelFetch(lights, i * LIGHT_TEXELS);
     vec3 one = punctual(m, p, place, texelFetch(lights, i * LIGHT_TEXELS + 1), row, occlusion);
     sum += one * inCone(p, place, texelFetch(lights, i * LIGHT_TEXELS + 2), texelFetch(lights, i * LIGHT_TEXELS + 3).x);

@@ -6,6 +6,7 @@
 #define BINDING_FRAME 0
 #define BINDING_DRAW 1
 #define BINDING_MATERIAL 2
+#define BINDING_SHADOW 3
 
 // Storage blocks
 #define STORAGE_DEFORM_SOURCE 0
@@ -38,6 +39,8 @@
 #define UNIT_OCCLUSION 0  // what the denoise pass reads
 #define UNIT_SCENE_COLOR 7  // of the pass that draws transparent surfaces, which reads no light lists
 #define UNIT_SCENE_DEPTH 9  // and no exposure
+#define UNIT_SHADOW 14        // shadow maps, compared
+#define UNIT_SHADOW_DEPTH 15  // and as depths
 
 // Vertex attributes
 #define ATTRIBUTE_POSITION 0
@@ -85,5 +88,17 @@ struct MaterialData {
   vec4 conductorK;    // rgb its extinction; w the same times its sine
   vec4 glass;         // x transmission, y thickness (m, of the mesh), z index of refraction (0: from F0), w 1 when blended
   vec4 attenuation;   // rgb absorption inside, 1/m; w sigma of rough diffuse, radians
+};
+
+// Directional lights' shadows. Those of point and spot lights are records of SHADOW_TEXELS texels behind the lights in their buffer:
+//   0: x 1 with a cube of maps, else 0; y and z: depth in the map = y / w - z, w the distance along the map's axis (m); w: the map's half side at 1 m
+//   1 to 3, without a cube: rows from camera-relative world to the map: x and y in (-1, 1) after division by w, and w
+//   4 to 9: x the map's layer (of a cube: of each face), negative where nothing casts
+// The light's own fourth texel has the record's number + 1 in y and the light's radius (m) in z.
+struct ShadowData {
+  vec4 params;  // x texels along a side of a map, y its inverse, z point and spot lights that have shadows (the first ones), w first texel of their records
+  // Each: rows to the light's axes (right, up, toward it; xyz), w of the first: tangent of half the angle that the light takes; x of the fourth: cascades. Then two for each cascade:
+  // x 1 / half side (1/m), yz the eye's place in the map, w layer (negative: nothing casts); x and y: depth = x · (along the light) + y, z a texel's side (m), w depth of the map (m).
+  vec4 suns[SUN_SHADOW_VECTORS * MAX_SHADOW_SUNS];
 };
 #endif

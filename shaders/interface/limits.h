@@ -4,4 +4,9 @@
 #define MAX_DIRECTIONAL 8
 #define LIGHT_TEXELS 4
 #define TILE_SIZE 16
+#define MAX_CASCADES 4
+#define MAX_SHADOW_SUNS 4
+#define SHADOW_TEXELS 10      // of a point or spot light's shadow record
+#define SUN_SHADOW_VECTORS 12
+#define SHADOW_WIDEST 16      // texels: the widest radius of a soft edge (shadow=pcss)
 #endif

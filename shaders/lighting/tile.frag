@@ -1,5 +1,5 @@
 // Shades the tiles: directional lights, the tile's point and spot lights, and the surroundings. Writes pre-exposed radiance.
-// Definitions: FOG (1: it lies before the surface: interface/fog.glsl), TILE_LIGHTS, DIRECTIONAL (count), ORTHOGRAPHIC, DETAIL (1: the tile may show brushed or rough surfaces, which the target
+// Definitions: FOG (1: it lies before the surface: interface/fog.glsl), TILE_LIGHTS, DIRECTIONAL (count), ORTHOGRAPHIC, those of interface/shadow.glsl (SHADOW 0: none), DETAIL (1: the tile may show brushed or rough surfaces, which the target
 // for them describes), IN_PLACE (1: writes what the display takes, not radiance; TONEMAP) and those of lighting/shade.glsl.
 #define ENVIRONMENT_UNIT UNIT_ENVIRONMENT
 #include "shading/bridge.h"
@@ -29,9 +29,12 @@ float lastLevel() { return irradiance[6].a; }
 #if TILE_LIGHTS > 0
 layout(location = 10) flat in vec4 lightData[2 * TILE_LIGHTS];
 #elif TILE_LIGHTS < 0
-layout(location = 10) flat in ivec2 lightRange;
+layout(location = 10) flat in ivec3 lightRange;
 layout(binding = UNIT_LIGHTS) uniform samplerBuffer lights;
 layout(binding = UNIT_LIGHT_LISTS) uniform usamplerBuffer lightLists;
+#endif
+#if SHADOW
+#include "interface/shadow.glsl"
 #endif
 
 layout(location = 0) out vec4 outRadiance;
@@ -55,15 +58,28 @@ void main() {
 #endif
   float row = findEnergy(m);
   vec3 sum = vec3(0.0);
-  for (int i = 0; i < DIRECTIONAL; ++i) sum += shadeLight(m, frame.directional[2 * i].xyz, row, occlusion) * frame.directional[2 * i + 1].rgb;
+#if SHADOW_SUNS > 0
+  for (int i = 0; i < SHADOW_SUNS; ++i) sum += shadeLight(m, frame.directional[2 * i].xyz, row, occlusion) * (frame.directional[2 * i + 1].rgb * sunVisible(i, p, m.n));
+#endif
+  for (int i = SHADOW_SUNS; i < DIRECTIONAL; ++i) sum += shadeLight(m, frame.directional[2 * i].xyz, row, occlusion) * frame.directional[2 * i + 1].rgb;
 #if TILE_LIGHTS > 0
   for (int i = 0; i < TILE_LIGHTS; ++i) sum += punctual(m, p, lightData[2 * i], lightData[2 * i + 1], row, occlusion);
 #elif TILE_LIGHTS < 0
-  for (int i = 0; i < lightRange.y; ++i) {
+  int next = 0;
+#if SHADOW_LOCALS
+  // Lights with shadows come first.
+  for (; next < lightRange.z; ++next) {
+    int light = int(texelFetch(lightLists, lightRange.x + next).x) * LIGHT_TEXELS;
+    vec4 place = texelFetch(lights, light), more = texelFetch(lights, light + 3);
+    vec3 one = punctual(m, p, place, texelFetch(lights, light + 1), row, occlusion) * inCone(p, place, texelFetch(lights, light + 2), more.x);
+    sum += one * localVisible(place.xyz, more, p, m.n);
+  }
+#endif
+  for (int i = next; i < lightRange.y; ++i) {
     int light = int(texelFetch(lightLists, lightRange.x + i).x) * LIGHT_TEXELS;
     vec4 place = texelFetch(lights, light);
     vec3 one = punctual(m, p, place, texelFetch(lights, light + 1), row, occlusion);
-#if TILE_LIGHTS == -2
+#if TILE_LIGHTS <= -2
     one *= inCone(p, place, texelFetch(lights, light + 2), texelFetch(lights, light + 3).x);
 #endif
     sum += one;

@@ -1,6 +1,7 @@
 // One point a tile of 16 x 16 pixels; the tile's lights travel to its fragments in flat varyings.
 // So do the pixel rays and the coefficients of irradiance: a software renderer reads a flat varying for less than a uniform (27 of them cost it 7 ms at 1280x720).
-// Definitions: ENVIRONMENT, TILE_LIGHTS (lights of each tile of this group; 0: none; -1: any number, looped over in the fragment shader; -2: with spots among them).
+// Definitions: ENVIRONMENT, TILE_LIGHTS (lights of each tile of this group; 0: none; -1: any number, looped over in the fragment shader; -2: with spots
+// among them; -3: with lights among them that cast shadows, which come first).
 #include "interface/layout.h"
 layout(std140, binding = BINDING_FRAME) uniform Frame { FrameData frame; };
 layout(binding = UNIT_LIGHTS) uniform samplerBuffer lights;
@@ -15,7 +16,7 @@ layout(location = 3) flat out vec4 irradiance[7];  // nine RGB coefficients in a
 #if TILE_LIGHTS > 0
 layout(location = 10) flat out vec4 lightData[2 * TILE_LIGHTS];
 #elif TILE_LIGHTS < 0
-layout(location = 10) flat out ivec2 lightRange;
+layout(location = 10) flat out ivec3 lightRange;  // first entry, number, how many of them cast shadows
 #endif
 
 void main() {
@@ -44,6 +45,6 @@ void main() {
     lightData[2 * i + 1] = texelFetch(lights, light + 1);
   }
 #elif TILE_LIGHTS < 0
-  lightRange = tile.zw;
+  lightRange = ivec3(tile.z, tile.w & 0xffff, tile.w >> 16);
 #endif
 }

@@ -7,5 +7,5 @@ void main() {
   vec2 tiles = vec2((frame.viewport.zw + TILE_SIZE - 1) / TILE_SIZE);
   gl_Position = vec4((vec2(tile.xy) + 0.5) / tiles * 2.0 - 1.0, 0.5, 1.0);
   gl_PointSize = float(TILE_SIZE);
-  lightCount = tile.w;
+  lightCount = tile.w & 0xffff;
 }

@@ -6,6 +6,7 @@
 #include "shading/diffuse.h"
 #include "shading/compensation.h"
 #include "shading/light.h"
+#include "shading/shadow.h"
 #include "shading/shade.h"
 #include "shading/sampling.h"
 #include "shading/environment.h"

@@ -104,7 +104,7 @@ Spread difference(Variant& with, Variant& without, int rounds) {
 struct Setting {
   const char *term, *rung, *without;
 };
-constexpr Setting kSettings[] = {{"occlusion", "screen-4", "baked"}, {"occlusion", "screen-8", "baked"}, {"occlusion", "screen-16", "baked"}, {"bloom", "scatter", "none"}, {"antialiasing", "edge", "none"}};
+constexpr Setting kSettings[] = {{"occlusion", "screen-4", "baked"}, {"occlusion", "screen-8", "baked"}, {"occlusion", "screen-16", "baked"}, {"shadow", "tap", "none"}, {"shadow", "pcf", "none"}, {"shadow", "pcss", "none"}, {"bloom", "scatter", "none"}, {"antialiasing", "edge", "none"}};
 
 double unitMs(const std::string& program) {
   if (program.empty()) return 0;

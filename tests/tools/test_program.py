@@ -323,7 +323,7 @@ class Plan(Program):
             self.assertEqual(list(one), ["name", "reads", "writes", "effects", "programs"])
             self.assertTrue(one["effects"], one)
         for target in plan["targets"]:
-            self.assertEqual(list(target), ["name", "format", "bytes"])
+            self.assertEqual(list(target), ["name", "format", "layers", "bytes"])
         self.assertTrue(plan["passes"] and plan["programs"] and plan["targets"])
         self.assertEqual(sorted(p.name for p in self.out.iterdir()), ["plan.json"])
 

@@ -257,6 +257,24 @@ TEST_CASE("cameras and lights", "[gltf]") {
   CHECK(readJson(file).message().find("/extensions/KHR_lights_punctual/lights/1/spot") != std::string::npos);
 }
 
+TEST_CASE("a light's extras say whether it casts shadows and how large it is", "[gltf]") {
+  const auto with = [](const Json& ours) {
+    Json file = {{"extensionsUsed", {"KHR_lights_punctual"}}, {"nodes", {{{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}}}}};
+    file["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}, {"extras", {{"burnish", ours}}}}};
+    return readJson(file);
+  };
+  const Reading r = with({{"shadow", true}, {"sourceRadius", 0.25}, {"angularDiameter", 0.5}});
+  REQUIRE(r.asset);
+  CHECK((r.asset->lights[0].shadow && r.asset->lights[0].sourceRadius == 0.25f && r.asset->lights[0].angularDiameter == 0.5f && r.report.empty()));
+  const Reading plain = with(Json::object());
+  CHECK((!plain.asset->lights[0].shadow && plain.asset->lights[0].sourceRadius < 0));
+  const Reading odd = with({{"shadow", "yes"}, {"sourceRadius", -1}});
+  REQUIRE(odd.asset);
+  CHECK((!odd.asset->lights[0].shadow && odd.asset->lights[0].sourceRadius < 0));
+  CHECK(odd.warned("/extensions/KHR_lights_punctual/lights/0/extras/burnish/shadow: string where true or false is expected: it is left out"));
+  CHECK(odd.warned("/extensions/KHR_lights_punctual/lights/0/extras/burnish/sourceRadius: no number from 0 to 1e6: it is left out"));
+}
+
 TEST_CASE("GLB: chunk and data URI", "[gltf]") {
   MeshFile f;
   f.positions(3);

@@ -24,7 +24,7 @@ Json planJson(const burnish::FramePlan& plan) {
   out["programs"] = Json::array();
   for (const auto& program : plan.programs) out["programs"].push_back(program.name);
   out["targets"] = Json::array();
-  for (const auto& target : plan.targets) out["targets"].push_back({{"name", target.name}, {"format", target.format}, {"bytes", target.bytes}});
+  for (const auto& target : plan.targets) out["targets"].push_back({{"name", target.name}, {"format", target.format}, {"layers", target.layers}, {"bytes", target.bytes}});
   return out;
 }
 
@@ -57,7 +57,7 @@ void printPlan(const burnish::FramePlan& plan) {
   fmt::print("targets\n");
   std::uint64_t bytes = 0;
   for (const auto& target : plan.targets) {
-    fmt::print("  {:<14} {:<20} {}x{} {:>12} bytes\n", target.name, target.format, target.width, target.height, target.bytes);
+    fmt::print("  {:<14} {:<20} {}x{}{} {:>12} bytes\n", target.name, target.format, target.width, target.height, target.layers > 0 ? fmt::format("x{}", target.layers) : std::string(), target.bytes);
     bytes += target.bytes;
   }
   fmt::print("  {} bytes in all; the G-buffer has {} bytes a pixel beside depth; {} programs\n", bytes, plan.gbufferBytesPerPixel, plan.programs.size());

@@ -37,6 +37,8 @@ struct FrameStats {
   std::vector<PassTime> passes;  ///< of the latest frame whose queries have arrived (Async: some frames ago)
   int draws = 0, lightsInView = 0, lights = 0;
   std::uint64_t triangles = 0;
+  int shadowMapsDrawn = 0, shadowMapsKept = 0;          ///< drawn in this frame; still right from an earlier one
+  int shadowDraws = 0;                                  ///< calls that drew casters into them
   std::uint64_t uploadedBytes = 0, pendingUploads = 0;  ///< pending: resources still waiting for their turn
   std::uint64_t textureBytes = 0;                       ///< all textures and targets alive
   std::uint64_t nonfinitePixels = 0;                    ///< in the light buffer; only with RenderRequest::countNonfinite

@@ -58,6 +58,7 @@ struct TargetPlan {
   std::string name, format;  ///< format: GL's name without the prefix ("RGBA16F")
   int width = 0, height = 0;
   int levels = 1;  ///< of its mip chain
+  int layers = 0;  ///< of an array; 0: it is none
   std::uint64_t bytes = 0;
   std::vector<std::string> effects;  ///< that call for it and are on
   friend bool operator==(const TargetPlan&, const TargetPlan&) = default;

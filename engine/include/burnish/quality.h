@@ -32,6 +32,7 @@ enum class DirectOcclusion : std::uint8_t { None, Specular };
 enum class Anisotropy : std::uint8_t { None, Tangents };         ///< of materials that are brushed
 enum class RoughDiffuse : std::uint8_t { None, OrenNayar };     ///< of materials with a diffuse roughness of their own
 enum class Path : std::uint8_t { Deferred, Forward };
+enum class Shadow : std::uint8_t { None, Tap, Pcf, Pcss };
 // Of the picture, not of the lighting equation (docs/post.md).
 enum class Antialiasing : std::uint8_t { None, Edge };
 enum class Bloom : std::uint8_t { None, Scatter };
@@ -54,6 +55,13 @@ struct Quality {
   RoughDiffuse roughDiffuse = RoughDiffuse::OrenNayar;
   /// Forward shades each surface where it is drawn, with every light: slow, unquantised, the reference of the deferred path. Rungs that the G-buffer cannot feed take it by themselves.
   Path path = Path::Deferred;
+
+  /// Of lights that cast them (docs/shadows.md); the next four count where there are any.
+  Shadow shadow = Shadow::Pcf;
+  int shadowResolution = 1024;  ///< texels along a side of a shadow map, 16 to 8192
+  int shadowCascades = 4;       ///< maps of a directional light, 1 to 4, each for a range of distances from the eye
+  float shadowDistance = 0;     ///< metres from the eye up to which directional lights have shadows; 0: as far as there is something to see
+  int shadowMaps = 64;          ///< of one view, 1 to 1024; a directional light takes shadowCascades, a spot light 1 (6 when wider than 60 degrees from its axis), a point light up to 6
 
   Antialiasing antialiasing = Antialiasing::None;
   Bloom bloom = Bloom::None;
@@ -83,7 +91,7 @@ struct Term {
   std::string_view name;  ///< as --set spells it
   std::string_view what;
   std::span<const Rung> rungs;
-  bool picture = false;   ///< works on the finished picture, not in the lighting equation: no part of a preset
+  bool picture = false;   ///< no part of a surface's lighting equation: it works on the finished picture, or decides which light arrives
 };
 
 /// Every term. The index of a term is what rungOf and setRung take.
@@ -96,7 +104,7 @@ BURNISH_API void setRung(Quality& quality, std::size_t term, std::size_t rung);
 BURNISH_API Result<void> setRung(Quality& quality, std::string_view term, std::string_view rung);
 
 /// seed: the talk that the project grew from (void geometry, (p + 8)/8 pi, Schlick, Lambert, occlusion on direct specular). default: Quality{}. exact: the top rung of each term.
-/// Tone map, exposure, light threshold, occlusion radius and the terms of the picture are no part of a preset.
+/// Tone map, exposure, light threshold, occlusion radius, sizes of shadow maps and the terms of the picture (all but shadow) are no part of a preset.
 BURNISH_API std::span<const std::string_view> presetNames();
 /// Puts a preset's rungs in force. Errors list the names.
 BURNISH_API Result<void> setPreset(Quality& quality, std::string_view name);

@@ -203,6 +203,7 @@ struct Instance {
   bool visible = true;
   Id<Skin> skin;                    ///< its joints place the vertices: the instance's own node then counts for nothing (glTF 2.0, section 3.7.3.3)
   std::vector<float> morphWeights;  ///< of Mesh::targets in order, any finite number; those that are missing are 0
+  bool castsShadow = true;          ///< in the light of lights that cast shadows; blended and glass surfaces cast none (docs/shadows.md)
 };
 
 enum class Interpolation : std::uint8_t {
@@ -258,6 +259,10 @@ struct Light {
   float innerCone = 0;    ///< radians from the axis, 0 <= inner <= outer
   float outerCone = 0.7853982f;  ///< radians, at most pi/2
   bool enabled = true;
+  bool castsShadow = false;      ///< what stands in its light keeps it from what is behind (docs/shadows.md)
+  // Its size, which is how soft its shadows are with shadow=pcss; the light itself stays punctual.
+  float sourceRadius = 0.02f;        ///< metres, of a point or spot light
+  float angularDiameter = 0.0093f;   ///< radians, of a directional light; the sun's from the earth
 };
 
 struct Camera {
