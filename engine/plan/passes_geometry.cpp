@@ -29,7 +29,7 @@ void addGBuffer(Builder& b) {
   }
   pass.writes.push_back("depth");
   if (!s.on("geometry")) return;
-  for (const GeometryVariant& v : s.facts.variants) b.use(pass, geometryProgram(GeometryPass::GBuffer, v, occlusion));
+  for (const GeometryVariant& v : s.facts.variants) b.use(pass, geometryProgram(GeometryPass::GBuffer, v, occlusion, s.quality.specularAntialiasing));
 }
 
 // One pass in place of G-buffer, tiles and lighting.

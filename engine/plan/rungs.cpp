@@ -116,6 +116,10 @@ constexpr Rung kBloom[] = {
     {"none", "no light scatters", "the term left out"},
     {"scatter", "a share of all light, spread by a pyramid of B-splines; none is lost or added", "Burt and Adelson 1983; Jimenez 2014, Next Generation Post Processing in Call of Duty"},
 };
+constexpr Rung kSpecularAntialiasing[] = {
+    {"none", "lobes are as wide as the maps say", "the term left out"},
+    {"geometric", "lobes widen by what the normal turns within a pixel, maps included", "Kaplanyan et al. 2016; Tokuyoshi and Kaplanyan 2021, listing 5"},
+};
 
 constexpr Term kTerms[] = {
     {"specular", "the specular model", kSpecular},
@@ -134,6 +138,7 @@ constexpr Term kTerms[] = {
     {"path", "where surfaces are shaded", kPath},
     {"antialiasing", "edges of the picture", kAntialiasing, true},
     {"bloom", "light that scatters in the lens", kBloom, true},
+    {"specular-antialiasing", "highlights narrower than a pixel", kSpecularAntialiasing, true},
 };
 
 // One place that knows which member each term is.
@@ -155,7 +160,8 @@ auto withMember(Q& q, std::size_t term, F&& f) {
     case 12: return f(q.directOcclusion);
     case 13: return f(q.path);
     case 14: return f(q.antialiasing);
-    default: return f(q.bloom);
+    case 15: return f(q.bloom);
+    default: return f(q.specularAntialiasing);
   }
 }
 
@@ -221,6 +227,7 @@ Result<void> setPreset(Quality& quality, std::string_view name) {
   q.lightThreshold = quality.lightThreshold;
   q.antialiasing = quality.antialiasing;
   q.bloom = quality.bloom;
+  q.specularAntialiasing = quality.specularAntialiasing;
   q.bloomShare = quality.bloomShare;
   q.occlusionRadius = quality.occlusionRadius;
   quality = q;

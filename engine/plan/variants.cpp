@@ -49,7 +49,7 @@ TransparentVariant transparentVariantOf(const Material& m, const Mesh& mesh, boo
   return v;
 }
 
-ProgramPlan geometryProgram(GeometryPass pass, GeometryVariant variant, bool occlusionTarget) {
+ProgramPlan geometryProgram(GeometryPass pass, GeometryVariant variant, bool occlusionTarget, SpecularAntialiasing specularAntialiasing) {
   ProgramPlan p;
   p.name = pass == GeometryPass::GBuffer ? "gbuffer" : pass == GeometryPass::Emissive ? "emissive" : "pick";
   p.vertex = "gbuffer/gbuffer.vert";
@@ -60,6 +60,7 @@ ProgramPlan geometryProgram(GeometryPass pass, GeometryVariant variant, bool occ
   if (variant.instanced) p.name += "+instanced";
   if (pass == GeometryPass::GBuffer) {
     p.defines.push_back(define("OCCLUSION", !occlusionTarget ? 0 : !variant.occlusionMap ? 2 : variant.packed ? 3 : 1));
+    p.defines.push_back(define("SPECULAR_ANTIALIASING", int(specularAntialiasing)));
     if (occlusionTarget) p.name += !variant.occlusionMap ? "+unoccluded" : variant.packed ? "+ao" : "+ao_map";
   }
   return p;
@@ -166,7 +167,7 @@ ProgramPlan peelProgram(const TransparentVariant& v) {
 }
 
 ProgramPlan forwardProgram(GeometryVariant variant, const Quality& quality, const LightingVariant& lighting) {
-  ProgramPlan p = geometryProgram(GeometryPass::GBuffer, variant, lighting.occlusion);
+  ProgramPlan p = geometryProgram(GeometryPass::GBuffer, variant, lighting.occlusion, quality.specularAntialiasing);
   p.name = "forward" + p.name.substr(std::string_view("gbuffer").size());
   p.fragment = "forward/forward.frag";
   for (std::string& d : shadeDefines(quality, lighting)) p.defines.push_back(std::move(d));

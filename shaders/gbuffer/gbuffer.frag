@@ -1,10 +1,11 @@
 // Fills the G-buffer: RT0 albedo (square root) + substance code, RT1 octahedral normal 2x12 + log-alpha code, RT2 baked ambient occlusion.
-// Definitions: GENERAL, ALPHA_TEST, OCCLUSION (gbuffer/fetch.glsl; 0: no third target).
+// Definitions: GENERAL, ALPHA_TEST, OCCLUSION (0: no third target), SPECULAR_ANTIALIASING (gbuffer/fetch.glsl).
 #include "shading/bridge.h"
 #include "shading/constants.h"
 #include "shading/rungs.h"
 #include "shading/roughness.h"
 #include "shading/normals.h"
+#include "shading/filter.h"
 #include "shading/albedo.h"
 #include "interface/layout.h"
 #include "gbuffer/fetch.glsl"
@@ -18,7 +19,7 @@ layout(location = 2) out float outOcclusion;
 void main() {
   Fetched f = fetchMaterial();
   outAlbedoSubstance = vec4(encodeAlbedo(f.albedo), f.code);
-  outNormalRoughness = vec4(packNormal(f.normal), encodeAlpha(storedAlpha(alphaFromRoughness(f.roughness))));
+  outNormalRoughness = vec4(packNormal(f.normal), encodeAlpha(storedAlpha(f.alpha)));
 #if OCCLUSION
   outOcclusion = f.occlusion;
 #endif

@@ -1,6 +1,7 @@
 // The terms in the order of their dependence: what a lighting pass includes after bridge.h, and what reference/shading.h wraps.
 #include "shading/lobes.h"
 #include "shading/normals.h"
+#include "shading/filter.h"
 #include "shading/albedo.h"
 #include "shading/diffuse.h"
 #include "shading/compensation.h"

@@ -33,6 +33,8 @@ enum class Path : std::uint8_t { Deferred, Forward };
 // Of the picture, not of the lighting equation (docs/post.md).
 enum class Antialiasing : std::uint8_t { None, Edge };
 enum class Bloom : std::uint8_t { None, Scatter };
+// Of how the lighting equation is sampled (docs/antialiasing.md).
+enum class SpecularAntialiasing : std::uint8_t { None, Geometric };
 
 struct Quality {
   Specular specular = Specular::Microfacet;          ///< the next four count for Microfacet alone; Lobe for every power of a cosine
@@ -52,6 +54,7 @@ struct Quality {
   Path path = Path::Deferred;
 
   Antialiasing antialiasing = Antialiasing::None;
+  SpecularAntialiasing specularAntialiasing = SpecularAntialiasing::None;
   Bloom bloom = Bloom::None;
   /// Share of the light that bloom scatters, 0 to 1.
   float bloomShare = 0.08f;
@@ -79,7 +82,7 @@ struct Term {
   std::string_view name;  ///< as --set spells it
   std::string_view what;
   std::span<const Rung> rungs;
-  bool picture = false;   ///< works on the finished picture, not in the lighting equation: no part of a preset
+  bool picture = false;   ///< works on the finished picture or on how it is sampled, not in the lighting equation: no part of a preset
 };
 
 /// Every term. The index of a term is what rungOf and setRung take.
