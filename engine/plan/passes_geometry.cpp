@@ -45,6 +45,15 @@ void addForward(Builder& b) {
     for (const GeometryVariant& v : s.facts.variants) b.use(pass, forwardProgram(v, s.quality, s.drawnLighting(orthographic)));
 }
 
+// Only what moved: where the camera alone moves, depth says where a point was.
+void addMotionVectors(Builder& b) {
+  const Situation& s = b.s;
+  if (!s.on("motion_vectors") || !s.hasDepth()) return;
+  PassPlan& pass = b.pass("motion_vectors", {"motion_vectors"}, {"meshes", "depth"}, {"velocity"});
+  b.target("velocity", "RGBA16F", {"motion_vectors"});
+  for (bool o : s.projections()) b.use(pass, {o ? "motion_vectors+ortho" : "motion_vectors", "gbuffer/motion.vert", "gbuffer/motion.frag", {define("ORTHOGRAPHIC", o)}});
+}
+
 void addEmissive(Builder& b) {
   if (!b.s.on("emissive")) return;
   PassPlan& pass = b.pass("emissive", {"emissive", "fog"}, {"meshes", "materials", "depth"}, {"light"});

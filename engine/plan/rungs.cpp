@@ -111,6 +111,7 @@ constexpr Rung kPath[] = {
 constexpr Rung kAntialiasing[] = {
     {"none", "one sample a pixel", "the term left out"},
     {"edge", "edges found in the developed picture and smoothed along their length", "Lottes 2009, FXAA; Reshetov 2009, Morphological Antialiasing"},
+    {"temporal", "pixels sampled elsewhere in each frame, averaged over frames", "Karis 2014, High Quality Temporal Supersampling; Salvi 2016"},
 };
 constexpr Rung kBloom[] = {
     {"none", "no light scatters", "the term left out"},

@@ -8,6 +8,7 @@
 #include "gl/host_state.h"
 #include "post/bloom.h"
 #include "post/post_pass.h"
+#include "post/temporal.h"
 
 namespace burnish {
 namespace {
@@ -69,6 +70,8 @@ Result<void> lightClearPass(PassCall& p) {
   return {};
 }
 
+Result<void> motionVectorsPass(PassCall& p) { return p.modules.motion().draw(p.c); }
+Result<void> temporalAntialiasingPass(PassCall& p) { return post::joinHistory(p.c); }
 Result<void> exposurePass(PassCall& p) { return post::measureExposure(p.c); }
 Result<void> nonfiniteCountPass(PassCall& p) {
   p.c.stats.nonfinitePixels += post::countNonfinite(p.c);
@@ -108,6 +111,8 @@ constexpr PassRow kPasses[] = {
     {"background", lit<&LightingPass::drawBackground>},
     {"host_draw", hostDrawPass},
     {"transparent", transparentPass},
+    {"motion_vectors", motionVectorsPass},
+    {"temporal_antialiasing", temporalAntialiasingPass},
     {"exposure", exposurePass},
     {"nonfinite_count", nonfiniteCountPass},
     {"bloom", bloomPass},
@@ -127,6 +132,11 @@ LightingPass& Modules::lighting() {
 transparency::TransparentPass& Modules::transparent() {
   if (!transparent_) transparent_ = std::make_unique<transparency::TransparentPass>(device_);
   return *transparent_;
+}
+
+gbuffer::MotionPass& Modules::motion() {
+  if (!motion_) motion_ = std::make_unique<gbuffer::MotionPass>(device_);
+  return *motion_;
 }
 
 Result<void> runPass(const PassPlan& pass, PassCall& call, gl::FrameTimers& timers) {

@@ -2,6 +2,7 @@
 #pragma once
 #include <memory>
 
+#include "gbuffer/motion_pass.h"
 #include "gl/timers.h"
 #include "gpu_scene/frame.h"
 #include "lighting/lighting_pass.h"
@@ -15,11 +16,13 @@ class Modules {
   explicit Modules(gl::Device& device) : device_(device) {}
   lighting::LightingPass& lighting();
   transparency::TransparentPass& transparent();
+  gbuffer::MotionPass& motion();
 
  private:
   gl::Device& device_;
   std::unique_ptr<lighting::LightingPass> lighting_;
   std::unique_ptr<transparency::TransparentPass> transparent_;
+  std::unique_ptr<gbuffer::MotionPass> motion_;
 };
 
 struct PassCall {

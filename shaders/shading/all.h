@@ -10,5 +10,6 @@
 #include "shading/sampling.h"
 #include "shading/environment.h"
 #include "shading/occlusion.h"
+#include "shading/history.h"
 #include "shading/transmission.h"
 #include "shading/fog.h"

@@ -60,6 +60,7 @@ const std::map<std::string, const char*> kElsewhere = {
     {"path=forward", "passes (tests/render)"},
     {"antialiasing=none", "the term left out"},
     {"antialiasing=edge", "a pass (tests/render)"},
+    {"antialiasing=temporal", "passes (tests/render); their functions have rows"},
     {"specular-antialiasing=none", "the term left out"},
     {"bloom=none", "the term left out"},
     {"bloom=scatter", "a pass (tests/render)"},

@@ -31,7 +31,7 @@ enum class SpecularOcclusion : std::uint8_t { None, Ao, Lagarde };
 enum class DirectOcclusion : std::uint8_t { None, Specular };
 enum class Path : std::uint8_t { Deferred, Forward };
 // Of the picture, not of the lighting equation (docs/post.md).
-enum class Antialiasing : std::uint8_t { None, Edge };
+enum class Antialiasing : std::uint8_t { None, Edge, Temporal };
 enum class Bloom : std::uint8_t { None, Scatter };
 // Of how the lighting equation is sampled (docs/antialiasing.md).
 enum class SpecularAntialiasing : std::uint8_t { None, Geometric };
