@@ -28,8 +28,8 @@ Result<void> TargetPool::prepare(const FramePlan& plan) {
       return fail(texture.error());
     }
     entry.plan = t;
-    entry.texture = std::move(*texture);
     entry.serial = ++made_;
+    entry.texture = std::move(*texture);
   }
   changed |= std::erase_if(entries_, [](const auto& e) { return e.second.idle > kIdleFrames; }) > 0;
   if (changed) framebuffers_.clear();
@@ -40,6 +40,8 @@ const gl::Texture* TargetPool::texture(std::string_view name) const {
   const auto found = entries_.find(name);
   return found == entries_.end() || found->second.idle > 0 || !found->second.texture ? nullptr : &found->second.texture;
 }
+
+std::uint64_t TargetPool::serial(std::string_view name) const { return texture(name) ? entries_.find(name)->second.serial : 0; }
 
 Result<GLuint> TargetPool::framebuffer(std::initializer_list<std::string_view> colors, std::string_view depth) {
   // By what is there: a plan without one of the targets wants a framebuffer without it.
@@ -58,8 +60,6 @@ Result<GLuint> TargetPool::framebuffer(std::initializer_list<std::string_view> c
   framebuffers_.emplace(key, std::move(*made));
   return id;
 }
-
-std::uint64_t TargetPool::serial(std::string_view name) const { return texture(name) ? entries_.find(name)->second.serial : 0; }
 
 Result<GLuint> TargetPool::layerFramebuffer(std::string_view depth, int layer) {
   const std::string key = fmt::format("{} layer {}", depth, layer);
@@ -141,10 +141,10 @@ namespace {
 
 void fillRays(FrameData& d, const scene::ViewFrame& v) {
   const glm::dvec3 right = v.axes[0], up = v.axes[1], forward = -v.axes[2];
-  const double w = v.viewport.z, h = v.viewport.w;
+  const double w = v.viewport.z, h = v.viewport.w, x = v.tanX * (2 * v.jitter.x / w - 1), y = v.tanY * (2 * v.jitter.y / h - 1);
   d.rayX = vec4(glm::vec3(right * (2 * v.tanX / w)), 0);
   d.rayY = vec4(glm::vec3(up * (2 * v.tanY / h)), 0);
-  d.rayOrigin = vec4(glm::vec3(-right * v.tanX - up * v.tanY + (v.orthographic ? glm::dvec3(0) : forward)), 0);
+  d.rayOrigin = vec4(glm::vec3(right * x + up * y + (v.orthographic ? glm::dvec3(0) : forward)), 0);
   d.forward = vec4(glm::vec3(forward), 0);
   d.depthParams = vec4(float(v.depthParams.x), float(v.depthParams.y), 0, 0);
 }

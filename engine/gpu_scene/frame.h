@@ -10,6 +10,7 @@
 #include "gl/program.h"
 #include "gpu_scene/gpu_scene.h"
 #include "gpu_scene/shadows.h"
+#include "scene/motion.h"
 #include "scene/transparency.h"
 
 namespace burnish::gpu_scene {
@@ -24,12 +25,12 @@ class TargetPool {
   Result<void> prepare(const FramePlan& plan);
   /// nullptr when the plan has no such target.
   [[nodiscard]] const gl::Texture* texture(std::string_view name) const;
+  /// Tells one texture of a target from the next one that takes its place; 0: the plan has no such target.
+  [[nodiscard]] std::uint64_t serial(std::string_view name) const;
   /// A framebuffer of the named targets (colours in order; depth optional), made on first use.
   Result<GLuint> framebuffer(std::initializer_list<std::string_view> colors, std::string_view depth = {});
   /// A framebuffer of one layer of a depth target that is an array.
   Result<GLuint> layerFramebuffer(std::string_view depth, int layer);
-  /// Counts how often a texture of that name has been made: what was drawn into it is lost when it moves. 0: there is none.
-  [[nodiscard]] std::uint64_t serial(std::string_view name) const;
   /// A framebuffer of one mip level of a target that the plan lists.
   Result<GLuint> levelFramebuffer(std::string_view color, int level);
 
@@ -81,6 +82,15 @@ struct FrameBuffers {
 /// The vertex binding that holds DrawData in instanced programs.
 inline constexpr GLuint kDrawBinding = 2;
 
+/// What antialiasing over time knows of the view's frame before.
+struct PastFrame {
+  bool valid = false;      ///< the history holds it
+  bool still = true;       ///< nothing that makes the picture has changed since
+  scene::ViewFrame frame;  ///< how it was seen
+  float preExposure = 1;   ///< FrameContext::preExposure then
+  int sequence = 0, source = 0;  ///< which targets hold it (plan/temporal.h)
+};
+
 struct FrameContext {
   gl::Device& device;
   const FramePlan& plan;
@@ -100,6 +110,9 @@ struct FrameContext {
   glm::ivec2 size{0};      ///< of the target
   GLuint output = 0;       ///< the target's framebuffer
   float preExposure = 1;   ///< the light buffer holds radiance times this
+  PastFrame past{};        ///< counts while antialiasing over time is on
+  std::span<const scene::Moved> moved{};  ///< of `visible`, since the frame before
+  std::string picture = "light";  ///< the target that what comes after lighting reads
   Report& report;
   FrameStats& stats;
 

@@ -81,12 +81,12 @@ void TileCuller::boundTiles(const scene::ViewFrame& view, std::span<const TileDe
   const double w = view.viewport.z, h = view.viewport.w;
   const auto distance = [&view](float z) { return view.orthographic ? view.depthParams.x - double(z) * view.depthParams.y : view.depthParams.x / (double(z) + view.depthParams.y); };
   for (int ty = 0; ty < rows_; ++ty) {
-    const double y0 = (2.0 * ty * TILE_SIZE / h - 1) * view.tanY, y1 = (2.0 * (ty + 1) * TILE_SIZE / h - 1) * view.tanY;
+    const double y0 = (2.0 * (ty * TILE_SIZE + view.jitter.y) / h - 1) * view.tanY, y1 = (2.0 * ((ty + 1) * TILE_SIZE + view.jitter.y) / h - 1) * view.tanY;
     for (int tx = 0; tx < columns_; ++tx) {
       const std::size_t i = std::size_t(ty * columns_ + tx);
       const TileDepth& t = depths[i];
       if (t.far < 0) continue;
-      const double x0 = (2.0 * tx * TILE_SIZE / w - 1) * view.tanX, x1 = (2.0 * (tx + 1) * TILE_SIZE / w - 1) * view.tanX;
+      const double x0 = (2.0 * (tx * TILE_SIZE + view.jitter.x) / w - 1) * view.tanX, x1 = (2.0 * ((tx + 1) * TILE_SIZE + view.jitter.x) / w - 1) * view.tanX;
       const auto box = [&](double z0, double z1) {
         const double s0 = view.orthographic ? 1 : z0, s1 = view.orthographic ? 1 : z1;
         const double slack = 1e-5 * (std::abs(z1) + 1e-3);  // floats of the shader's own position
@@ -111,9 +111,9 @@ void TileCuller::cullLight(const scene::ViewFrame& view, const scene::LocalLight
   const auto low = [&](double c) { return std::min((c - r) / dNear, (c - r) / dFar); };
   const auto high = [&](double c) { return std::max((c + r) / dNear, (c + r) / dFar); };
   const double w = view.viewport.z, h = view.viewport.w;
-  const auto tileAt = [](double image, double tan, double pixels, int tiles) { return int(std::clamp(std::floor((image / tan + 1) * 0.5 * pixels / TILE_SIZE), -1.0, double(tiles))); };
-  const int tx0 = std::max(tileAt(low(x), view.tanX, w, columns_), 0), tx1 = std::min(tileAt(high(x), view.tanX, w, columns_), columns_ - 1);
-  const int ty0 = std::max(tileAt(low(y), view.tanY, h, rows_), 0), ty1 = std::min(tileAt(high(y), view.tanY, h, rows_), rows_ - 1);
+  const auto tileAt = [](double image, double tan, double pixels, double jitter, int tiles) { return int(std::clamp(std::floor(((image / tan + 1) * 0.5 * pixels - jitter) / TILE_SIZE), -1.0, double(tiles))); };
+  const int tx0 = std::max(tileAt(low(x), view.tanX, w, view.jitter.x, columns_), 0), tx1 = std::min(tileAt(high(x), view.tanX, w, view.jitter.x, columns_), columns_ - 1);
+  const int ty0 = std::max(tileAt(low(y), view.tanY, h, view.jitter.y, rows_), 0), ty1 = std::min(tileAt(high(y), view.tanY, h, view.jitter.y, rows_), rows_ - 1);
   const bool spot = light.cosOuter > -1;
   const glm::vec3 axis(float(glm::dot(view.axes[0], glm::dvec3(light.axis))), float(glm::dot(view.axes[1], glm::dvec3(light.axis))), float(-glm::dot(view.axes[2], glm::dvec3(light.axis))));
   const float cosOuter = light.cosOuter, sinOuter = std::sqrt(std::max(1 - cosOuter * cosOuter, 0.0f));

@@ -10,7 +10,7 @@ namespace burnish::plan {
 namespace {
 
 // The frame, from top to bottom.
-constexpr Step kSteps[] = {addDeformation, addShadowMaps, addHostDepth, addGBuffer, addForward, addTiles, addOcclusion, addLightClear, addLighting, addEmissive, addBackground, addHostDraw, addTransparent, addExposure, addNonfiniteCount, addBloom, addToneMapping, addEdgeAntialiasing, addDebugView, addDepthOut};
+constexpr Step kSteps[] = {addDeformation, addShadowMaps, addHostDepth, addGBuffer, addForward, addTiles, addOcclusion, addLightClear, addLighting, addEmissive, addBackground, addHostDraw, addTransparent, addMotionVectors, addTemporalAntialiasing, addExposure, addNonfiniteCount, addBloom, addToneMapping, addEdgeAntialiasing, addDebugView, addDepthOut};
 
 template <class T>
 void addOnce(std::vector<T>& list, const T& item) {

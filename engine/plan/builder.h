@@ -38,6 +38,7 @@ void addShadowMaps(Builder& b);
 void addGBuffer(Builder& b);
 void addForward(Builder& b);
 void addEmissive(Builder& b);
+void addMotionVectors(Builder& b);
 // passes_lighting.cpp
 void addTiles(Builder& b);
 void addLightClear(Builder& b);
@@ -48,6 +49,7 @@ void addBackground(Builder& b);
 void addTransparent(Builder& b);
 // passes_post.cpp
 void addHostDraw(Builder& b);
+void addTemporalAntialiasing(Builder& b);
 void addExposure(Builder& b);
 void addNonfiniteCount(Builder& b);
 void addBloom(Builder& b);

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "plan/rungs.h"
+#include "plan/temporal.h"
 
 namespace burnish::plan {
 namespace {
@@ -124,6 +125,15 @@ Verdict edgeAntialiasing(const Situation& s) {
   if (s.options.output == Output::Linear) return {false, "linear output has no display values to find edges in"};
   return {true, "antialiasing=edge"};
 }
+Verdict temporalAntialiasing(const Situation& s) {
+  if (s.quality.antialiasing != Antialiasing::Temporal) return {false, "antialiasing=temporal would call for it"};
+  if (s.options.debugView != DebugView::Final) return {false, "the debug view does not need it"};
+  if (!keepsHistory(s.quality, s.options)) return {false, "the target brings depth, and what the host drew has no history"};
+  return {true, "antialiasing=temporal"};
+}
+Verdict motionVectors(const Situation& s) {
+  return provided(sceneCalls(s, Call::Moving, "an instance that moved since the frame before would call for it"), s.on("temporal_antialiasing"), "antialiasing=temporal would call for it where something moves");
+}
 Verdict linearOutput(const Situation& s) {
   const bool on = s.options.output == Output::Linear && s.options.debugView == DebugView::Final;
   return {on, on ? "radiance is asked for" : "a request for linear output would call for it"};
@@ -162,6 +172,8 @@ constexpr EffectRow kRows[] = {
     {{"bloom", CalledBy::Setting, "light that scatters in the lens"}, bloom},
     {{"tone_mapping", CalledBy::Setting, "radiance developed for a display"}, toneMapping, false},
     {{"edge_antialiasing", CalledBy::Setting, "edges smoothed in the developed picture"}, edgeAntialiasing},
+    {{"temporal_antialiasing", CalledBy::Setting, "samples of each pixel averaged over frames"}, temporalAntialiasing},
+    {{"motion_vectors", CalledBy::Scene, "where what moves was in the frame before"}, motionVectors, false},
     {{"linear_output", CalledBy::Setting, "radiance in cd/m2, not developed"}, linearOutput},
     {{"debug_view", CalledBy::Setting, "a buffer in place of the picture"}, debugView},
     {{"host_depth_in", CalledBy::Setting, "the host's depth occludes the scene"}, hostDepthIn},

@@ -49,7 +49,7 @@ void addGBuffer(Builder& b) {
   }
   pass.writes.push_back("depth");
   if (!s.on("geometry")) return;
-  for (const GeometryVariant& v : s.facts.variants) b.use(pass, geometryProgram(GeometryPass::GBuffer, v, occlusion));
+  for (const GeometryVariant& v : s.facts.variants) b.use(pass, geometryProgram(GeometryPass::GBuffer, v, occlusion, s.quality.specularAntialiasing));
 }
 
 // One pass in place of G-buffer, tiles and lighting.
@@ -64,6 +64,15 @@ void addForward(Builder& b) {
   if (s.shadows().rung != Shadow::None) pass.reads.push_back("shadow_maps");
   for (bool orthographic : s.projections())
     for (const GeometryVariant& v : s.facts.variants) b.use(pass, forwardProgram(v, s.quality, s.drawnLighting(orthographic)));
+}
+
+// Only what moved: where the camera alone moves, depth says where a point was.
+void addMotionVectors(Builder& b) {
+  const Situation& s = b.s;
+  if (!s.on("motion_vectors") || !s.hasDepth()) return;
+  PassPlan& pass = b.pass("motion_vectors", {"motion_vectors"}, {"meshes", "depth"}, {"velocity"});
+  b.target("velocity", "RGBA16F", {"motion_vectors"});
+  for (bool o : s.projections()) b.use(pass, {o ? "motion_vectors+ortho" : "motion_vectors", "gbuffer/motion.vert", "gbuffer/motion.frag", {define("ORTHOGRAPHIC", o)}});
 }
 
 void addEmissive(Builder& b) {

@@ -1,6 +1,7 @@
 // From the light buffer to the target.
 #include "plan/bloom.h"
 #include "plan/builder.h"
+#include "plan/temporal.h"
 
 namespace burnish::plan {
 
@@ -8,10 +9,43 @@ void addHostDraw(Builder& b) {
   if (b.s.on("host_draw")) b.pass("host_draw", {"host_draw"}, {"depth"}, {"light"});
 }
 
+// What has gone before stands in two targets that take turns. Its picture takes the light buffer's place for all that follows.
+void addTemporalAntialiasing(Builder& b) {
+  const Situation& s = b.s;
+  if (!s.on("temporal_antialiasing")) return;
+  const bool linear = s.options.output == Output::Linear, motion = s.on("motion_vectors") && s.hasDepth();
+  PassPlan& pass = b.pass("temporal_antialiasing", {"temporal_antialiasing"}, {"light"}, {});
+  for (int which : {0, 1}) {
+    const std::string names[] = {historyName(s.options.sequence, which), historyDistanceName(s.options.sequence, which)};
+    b.target(names[0], linear ? "RGBA32F" : "RGBA16F", {"temporal_antialiasing"});
+    b.target(names[1], "R16F", {"temporal_antialiasing"});
+    for (const std::string& name : names) {
+      pass.reads.push_back(name);
+      pass.writes.push_back(name);
+    }
+  }
+  if (s.hasDepth()) pass.reads.emplace_back("depth");
+  if (motion) pass.reads.emplace_back("velocity");
+  for (bool o : s.projections())
+    for (bool still : {false, true})
+      b.useScreen(pass, std::string(still ? "temporal_still" : "temporal") + (o ? "+ortho" : ""), "post/temporal.frag",
+                  {define("GEOMETRY", s.hasDepth()), define("MOTION", motion && !still), define("ORTHOGRAPHIC", o), define("STILL", still), define("WEIGHTED", !linear)});
+}
+
+namespace {
+
+/// What the passes after lighting read: the light buffer, or the mean over frames in its place (the two targets take turns).
+std::vector<std::string> pictureOf(const Situation& s) {
+  if (!s.on("temporal_antialiasing")) return {"light"};
+  return {historyName(s.options.sequence, 0), historyName(s.options.sequence, 1)};
+}
+
+}  // namespace
+
 void addExposure(Builder& b) {
   if (!b.s.on("auto_exposure")) return;
   b.target("exposure", "RG32F", {"auto_exposure"}, {1, 1});
-  b.useScreen(b.pass("exposure", {"auto_exposure"}, {"light"}, {"exposure"}), "exposure", "post/exposure.frag", {});
+  b.useScreen(b.pass("exposure", {"auto_exposure"}, pictureOf(b.s), {"exposure"}), "exposure", "post/exposure.frag", {});
 }
 
 void addNonfiniteCount(Builder& b) {
@@ -20,7 +54,7 @@ void addNonfiniteCount(Builder& b) {
 
 void addBloom(Builder& b) {
   if (!b.s.on("bloom")) return;
-  PassPlan& pass = b.pass("bloom", {"bloom"}, {"light"}, {"bloom"});
+  PassPlan& pass = b.pass("bloom", {"bloom"}, pictureOf(b.s), {"bloom"});
   b.target("bloom", "RGBA16F", {"bloom"}, bloomSize(b.s.options.size), bloomLevels(b.s.options.size.y));
   for (const char* name : {"bloom_first", "bloom_down", "bloom_up"}) b.useScreen(pass, name, std::string("post/") + name + ".frag", {});
 }
@@ -30,7 +64,7 @@ void addToneMapping(Builder& b) {
   if ((!s.on("tone_mapping") && !s.on("linear_output")) || s.developsInPlace()) return;
   const bool automatic = s.on("auto_exposure"), host = s.on("host_depth_in"), linear = s.options.output == Output::Linear;
   const bool bloom = s.on("bloom"), edges = s.on("edge_antialiasing");
-  PassPlan& pass = b.pass("tonemap", {"tone_mapping", "linear_output", "host_depth_in"}, {"light"}, {edges ? "display" : "target"});
+  PassPlan& pass = b.pass("tonemap", {"tone_mapping", "linear_output", "host_depth_in"}, pictureOf(s), {edges ? "display" : "target"});
   if (edges) b.target("display", "RGBA8", {"edge_antialiasing"});
   if (bloom) pass.reads.emplace_back("bloom");
   if (automatic) pass.reads.push_back("exposure");

@@ -5,6 +5,7 @@
 
 #include "plan/builder.h"
 #include "plan/effects.h"
+#include "plan/temporal.h"
 
 namespace burnish {
 namespace {
@@ -45,6 +46,10 @@ FramePlan makePlan(const Scene& scene, std::span<const View> views, const Qualit
     plan::look(scene, derived, views[i], options.size, quality, report, inView[i]);
     plan::lookEverywhere(scene, derived, views[i], options.size, quality, report, everywhere[i]);
   }
+  // Whatever is there may move one day.
+  if (options.wholeScene && plan::keepsHistory(quality, options))
+    for (plan::Seen& seen : everywhere)
+      for (std::uint32_t i = 0; i < seen.instances.size(); ++i) seen.moved.push_back({i, {}});
   const plan::Facts whole = plan::factsOf(scene, everywhere, quality, options);
   return plan::planOf(scene, options.wholeScene ? everywhere : inView, quality, caps, options, &whole);
 }

@@ -125,10 +125,15 @@ constexpr Rung kShadow[] = {
 constexpr Rung kAntialiasing[] = {
     {"none", "one sample a pixel", "the term left out"},
     {"edge", "edges found in the developed picture and smoothed along their length", "Lottes 2009, FXAA; Reshetov 2009, Morphological Antialiasing"},
+    {"temporal", "pixels sampled elsewhere in each frame, averaged over frames", "Karis 2014, High Quality Temporal Supersampling; Salvi 2016"},
 };
 constexpr Rung kBloom[] = {
     {"none", "no light scatters", "the term left out"},
     {"scatter", "a share of all light, spread by a pyramid of B-splines; none is lost or added", "Burt and Adelson 1983; Jimenez 2014, Next Generation Post Processing in Call of Duty"},
+};
+constexpr Rung kSpecularAntialiasing[] = {
+    {"none", "lobes are as wide as the maps say", "the term left out"},
+    {"geometric", "lobes widen by what the normal turns within a pixel, maps included", "Kaplanyan et al. 2016; Tokuyoshi and Kaplanyan 2021, listing 5"},
 };
 
 constexpr Term kTerms[] = {
@@ -151,6 +156,7 @@ constexpr Term kTerms[] = {
     {"shadow", "shadows of lights that cast them", kShadow, true},
     {"antialiasing", "edges of the picture", kAntialiasing, true},
     {"bloom", "light that scatters in the lens", kBloom, true},
+    {"specular-antialiasing", "highlights narrower than a pixel", kSpecularAntialiasing, true},
 };
 
 // One place that knows which member each term is.
@@ -175,7 +181,8 @@ auto withMember(Q& q, std::size_t term, F&& f) {
     case 15: return f(q.path);
     case 16: return f(q.shadow);
     case 17: return f(q.antialiasing);
-    default: return f(q.bloom);
+    case 18: return f(q.bloom);
+    default: return f(q.specularAntialiasing);
   }
 }
 
@@ -245,6 +252,7 @@ Result<void> setPreset(Quality& quality, std::string_view name) {
   q.lightThreshold = quality.lightThreshold;
   q.antialiasing = quality.antialiasing;
   q.bloom = quality.bloom;
+  q.specularAntialiasing = quality.specularAntialiasing;
   q.bloomShare = quality.bloomShare;
   q.occlusionRadius = quality.occlusionRadius;
   q.shadowResolution = quality.shadowResolution;

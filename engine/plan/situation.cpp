@@ -125,8 +125,8 @@ bool sees(const scene::ViewFrame& v, const Environment::Sun& sun) {
 
 }  // namespace
 
-void look(const Scene& scene, const scene::Derived& derived, const View& view, glm::ivec2 targetSize, const Quality& quality, Report& report, Seen& out) {
-  out.frame = scene::frameOf(view, targetSize);
+void look(const Scene& scene, const scene::Derived& derived, const View& view, glm::ivec2 targetSize, const Quality& quality, Report& report, Seen& out, glm::dvec2 jitter) {
+  out.frame = scene::frameOf(view, targetSize, jitter);
   scene::findVisible(scene, derived, out.frame, out.instances);
   out.batches = scene::batch(out.instances);
   out.transparent = scene::orderTransparent(scene, derived, out.frame, out.instances);
@@ -160,6 +160,7 @@ Facts factsOf(const Scene& scene, std::span<const Seen> views, const Quality& qu
     addLights(scene, view.lights, facts);
     if (view.fogDepth > scene::kLeastFog) facts.why[std::size_t(Call::Fog)] = "the scene's fog";
     addShadows(scene, view.shadows, facts);
+    if (!view.moved.empty()) facts.call(Call::Moving, "instance", view.instances[view.moved.front().visible].instance->name, " moves", int(view.moved.size()));
   }
   addEnvironment(scene.environment, facts);
   if (const auto& sun = scene.environment.sun)

@@ -7,6 +7,7 @@
 
 #include "plan/variants.h"
 #include "scene/shadows.h"
+#include "scene/motion.h"
 #include "scene/transparency.h"
 
 namespace burnish::plan {
@@ -20,14 +21,15 @@ struct Seen {
   scene::ShadowSet shadows;                          ///< of the first of `lights`
   std::vector<scene::TransparentGroup> transparent;  ///< farthest first; indices into instances
   double fogDepth = 0;                               ///< no more than so much fog lies before anything in view (optical depth)
+  std::vector<scene::Moved> moved;                   ///< since the frame before; filled in by whoever remembers it
 };
 /// What a view sees. `lights` is filled too; what is mended goes into the report.
-void look(const Scene& scene, const scene::Derived& derived, const View& view, glm::ivec2 targetSize, const Quality& quality, Report& report, Seen& out);
+void look(const Scene& scene, const scene::Derived& derived, const View& view, glm::ivec2 targetSize, const Quality& quality, Report& report, Seen& out, glm::dvec2 jitter = {0, 0});
 /// As if everything were in view (PlanOptions::wholeScene).
 void lookEverywhere(const Scene& scene, const scene::Derived& derived, const View& view, glm::ivec2 targetSize, const Quality& quality, Report& report, Seen& out);
 
 /// What a scene holds that effects are called by.
-enum class Call : std::uint8_t { Geometry, Deformation, TwoSided, AlphaTest, BakedOcclusion, Anisotropy, RoughDiffuse, Emissive, Directional, Local, Environment, Background, AlphaBlend, Glass, Fog, SunDisc, SunShadows, LocalShadows, Count };
+enum class Call : std::uint8_t { Geometry, Deformation, TwoSided, AlphaTest, BakedOcclusion, Anisotropy, RoughDiffuse, Emissive, Directional, Local, Environment, Background, AlphaBlend, Glass, Fog, SunDisc, SunShadows, LocalShadows, Moving, Count };
 struct Facts {
   std::array<std::string, std::size_t(Call::Count)> why;  ///< the first thing that calls; empty: nothing does
   std::array<int, std::size_t(Call::Count)> objects{};    ///< how many call, instances or lights, counted once a view

@@ -58,7 +58,7 @@ namespace {
 std::string namesOf(Details d) { return fmt::format("{}{}", d.brushed ? "+brushed" : "", d.rough ? "+rough" : ""); }
 }  // namespace
 
-ProgramPlan geometryProgram(GeometryPass pass, GeometryVariant variant, bool occlusionTarget) {
+ProgramPlan geometryProgram(GeometryPass pass, GeometryVariant variant, bool occlusionTarget, SpecularAntialiasing specularAntialiasing) {
   ProgramPlan p;
   p.name = pass == GeometryPass::GBuffer ? "gbuffer" : pass == GeometryPass::Emissive ? "emissive" : "pick";
   p.vertex = "gbuffer/gbuffer.vert";
@@ -71,6 +71,7 @@ ProgramPlan geometryProgram(GeometryPass pass, GeometryVariant variant, bool occ
     p.defines.push_back(define("OCCLUSION", !occlusionTarget ? 0 : !variant.occlusionMap ? 2 : variant.packed ? 3 : 1));
     p.defines.push_back(define("PACKED", variant.packed));
     if (!occlusionTarget && variant.packed) p.name += "+packed";
+    p.defines.push_back(define("SPECULAR_ANTIALIASING", int(specularAntialiasing)));
     if (occlusionTarget) p.name += !variant.occlusionMap ? "+unoccluded" : variant.packed ? "+ao" : "+ao_map";
     p.defines.push_back(define("ANISOTROPIC", variant.brushed));
     p.defines.push_back(define("ROUGH_DIFFUSE", variant.rough));
@@ -203,7 +204,7 @@ ProgramPlan peelProgram(const TransparentVariant& v) {
 }
 
 ProgramPlan forwardProgram(GeometryVariant variant, const Quality& quality, const LightingVariant& lighting) {
-  ProgramPlan p = geometryProgram(GeometryPass::GBuffer, variant, lighting.occlusion);
+  ProgramPlan p = geometryProgram(GeometryPass::GBuffer, variant, lighting.occlusion, quality.specularAntialiasing);
   p.name = "forward" + p.name.substr(std::string_view("gbuffer").size());
   p.fragment = "forward/forward.frag";
   for (std::string& d : shadeDefines(quality, lighting, lighting.shadows.locals)) p.defines.push_back(std::move(d));

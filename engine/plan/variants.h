@@ -72,8 +72,8 @@ ProgramPlan shadowProgram(ShadowVariant variant);
 
 /// The passes that draw geometry.
 enum class GeometryPass : std::uint8_t { GBuffer, Emissive, Pick, Forward };
-/// occlusionTarget: the frame has a third target. Not for Emissive and Forward, which emissiveProgram and forwardProgram make.
-ProgramPlan geometryProgram(GeometryPass pass, GeometryVariant variant, bool occlusionTarget);
+/// occlusionTarget: the frame has a third target. specularAntialiasing: of what the G-buffer takes. Not for Emissive and Forward, which emissiveProgram and forwardProgram make.
+ProgramPlan geometryProgram(GeometryPass pass, GeometryVariant variant, bool occlusionTarget, SpecularAntialiasing specularAntialiasing = SpecularAntialiasing::None);
 
 /// How the screen-space rungs of occlusion sample: slices, each a half turn around the direction to the eye, and samples to either side of it. No slices: the rung is another.
 struct OcclusionSamples {

@@ -44,7 +44,7 @@ Result<void> takeLight(FrameContext& c) {
   const glm::ivec2 size = scatteredSize(c, 0);
   c.device.gl.Viewport(0, 0, size.x, size.y);
   c.device.gl.Scissor(0, 0, size.x, size.y);
-  bindIfThere(c, "light", UNIT_LIGHT_BUFFER);
+  bindIfThere(c, c.picture, UNIT_LIGHT_BUFFER);
   return c.drawScreen("bloom_first");
 }
 

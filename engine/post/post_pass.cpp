@@ -33,7 +33,7 @@ Result<void> measureExposure(FrameContext& c) {
   beginScreen(c, *framebuffer);
   c.device.gl.Viewport(0, 0, 1, 1);
   c.device.gl.Scissor(0, 0, 1, 1);
-  bindIfThere(c, "light", UNIT_LIGHT_BUFFER);
+  bindIfThere(c, c.picture, UNIT_LIGHT_BUFFER);
   return c.drawScreen("exposure");
 }
 
@@ -50,7 +50,7 @@ Result<void> drawTonemap(FrameContext& c, GLuint framebuffer) {
     framebuffer = *display;
   }
   beginScreen(c, framebuffer);
-  bindIfThere(c, "light", UNIT_LIGHT_BUFFER);
+  bindIfThere(c, c.picture, UNIT_LIGHT_BUFFER);
   bindIfThere(c, "exposure", UNIT_EXPOSURE);
   if (c.plan.on("host_depth_in")) {
     bindIfThere(c, "gbuffer_b", UNIT_GBUFFER_B);
@@ -93,6 +93,8 @@ std::uint64_t countNonfinite(FrameContext& c) {
   for (const glm::vec4& p : pixels) count += !(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
   // What spreads light says that it let none of these through.
   if (count > 0 && c.plan.on("bloom")) c.report.warn("bloom", fmt::format("{} pixels of the light buffer are not finite: they scatter nothing (view 'nonfinite' shows them)", count));
+  if (count > 0 && c.plan.on("temporal_antialiasing"))
+    c.report.warn("antialiasing", fmt::format("{} pixels of the light buffer are not finite: they are left out of the mean over frames (view 'nonfinite' shows them)", count));
   return count;
 }
 

@@ -8,6 +8,7 @@
 #include "gl/host_state.h"
 #include "post/bloom.h"
 #include "post/post_pass.h"
+#include "post/temporal.h"
 
 namespace burnish {
 namespace {
@@ -70,6 +71,8 @@ Result<void> lightClearPass(PassCall& p) {
   return {};
 }
 
+Result<void> motionVectorsPass(PassCall& p) { return p.modules.motion().draw(p.c); }
+Result<void> temporalAntialiasingPass(PassCall& p) { return post::joinHistory(p.c); }
 Result<void> exposurePass(PassCall& p) { return post::measureExposure(p.c); }
 Result<void> nonfiniteCountPass(PassCall& p) {
   p.c.stats.nonfinitePixels += post::countNonfinite(p.c);
@@ -110,6 +113,8 @@ constexpr PassRow kPasses[] = {
     {"background", lit<&LightingPass::drawBackground>},
     {"host_draw", hostDrawPass},
     {"transparent", transparentPass},
+    {"motion_vectors", motionVectorsPass},
+    {"temporal_antialiasing", temporalAntialiasingPass},
     {"exposure", exposurePass},
     {"nonfinite_count", nonfiniteCountPass},
     {"bloom", bloomPass},
@@ -134,6 +139,11 @@ transparency::TransparentPass& Modules::transparent() {
 shadow::ShadowPass& Modules::shadows() {
   if (!shadows_) shadows_ = std::make_unique<shadow::ShadowPass>(device_);
   return *shadows_;
+}
+
+gbuffer::MotionPass& Modules::motion() {
+  if (!motion_) motion_ = std::make_unique<gbuffer::MotionPass>(device_);
+  return *motion_;
 }
 
 Result<void> runPass(const PassPlan& pass, PassCall& call, gl::FrameTimers& timers) {

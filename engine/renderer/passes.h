@@ -2,6 +2,7 @@
 #pragma once
 #include <memory>
 
+#include "gbuffer/motion_pass.h"
 #include "gl/timers.h"
 #include "gpu_scene/frame.h"
 #include "lighting/lighting_pass.h"
@@ -17,12 +18,14 @@ class Modules {
   lighting::LightingPass& lighting();
   transparency::TransparentPass& transparent();
   shadow::ShadowPass& shadows();
+  gbuffer::MotionPass& motion();
 
  private:
   gl::Device& device_;
   std::unique_ptr<lighting::LightingPass> lighting_;
   std::unique_ptr<transparency::TransparentPass> transparent_;
   std::unique_ptr<shadow::ShadowPass> shadows_;
+  std::unique_ptr<gbuffer::MotionPass> motion_;
 };
 
 struct PassCall {

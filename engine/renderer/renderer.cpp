@@ -11,6 +11,8 @@
 #include "gl/host_state.h"
 #include "interface/limits.h"
 #include "plan/plan.h"
+#include "plan/temporal.h"
+#include "renderer/history.h"
 #include "renderer/passes.h"
 
 namespace burnish {
@@ -95,6 +97,8 @@ struct Renderer::Impl {
   std::optional<Quality> reportedQuality;
   std::vector<bool> loggedEffects;
   std::vector<plan::Seen> seen;  // of each view
+  float preExposure = 1;         // of the view drawn last
+  std::map<int, History> histories;  // by sequence, while antialiasing over time is on
 
   SceneState& stateOf(const Scene& scene) {
     std::unique_ptr<SceneState>& s = scenes[scene.identity.value()];
@@ -140,13 +144,16 @@ struct Renderer::Impl {
     o.hostDepthOut = target.depthOut.has_value();
     o.hostDraw = bool(request.hostDraw);
     o.countNonfinite = request.countNonfinite;
+    o.sequence = request.sequence;
     o.tileBounds = options.tileBounds;
     o.removed = options.removedEffects;
     o.forced = options.forcedEffects;
     return o;
   }
   Result<void> checkRequest(const Target& target, std::span<const View> views) const;
-  Result<void> renderView(SceneState& state, const Scene& scene, plan::Seen& view, const Target& target, const Quality& quality, const RenderRequest& request, FrameStats& stats);
+  /// What is remembered of the sequence, ready for this frame; nullptr: nothing is, antialiasing over time is off.
+  History* historyOf(const Scene& scene, const scene::Derived& derived, std::span<const View> views, const Target& target, const Quality& quality, const RenderRequest& request, const PlanOptions& planned);
+  Result<void> renderView(SceneState& state, const Scene& scene, plan::Seen& view, const gpu_scene::PastFrame& past, const Target& target, const Quality& quality, const RenderRequest& request, FrameStats& stats);
 };
 
 Result<void> Renderer::Impl::checkRequest(const Target& target, std::span<const View> views) const {
@@ -165,7 +172,18 @@ Result<void> Renderer::Impl::checkRequest(const Target& target, std::span<const 
   return {};
 }
 
-Result<void> Renderer::Impl::renderView(SceneState& state, const Scene& scene, plan::Seen& view, const Target& target, const Quality& quality, const RenderRequest& request, FrameStats& stats) {
+History* Renderer::Impl::historyOf(const Scene& scene, const scene::Derived& derived, std::span<const View> views, const Target& target, const Quality& quality, const RenderRequest& request, const PlanOptions& planned) {
+  if (!plan::keepsHistory(quality, planned)) {
+    histories.erase(request.sequence);
+    if (quality.antialiasing == Antialiasing::Temporal && planned.hostDepthIn) report.warn("antialiasing", "temporal is off where the target brings depth: what the host drew has no history; use antialiasing=edge");
+    return nullptr;
+  }
+  History& history = histories[request.sequence];
+  history.begin(scene, derived, views, target, quality, request);
+  return &history;
+}
+
+Result<void> Renderer::Impl::renderView(SceneState& state, const Scene& scene, plan::Seen& view, const gpu_scene::PastFrame& past, const Target& target, const Quality& quality, const RenderRequest& request, FrameStats& stats) {
   const gpu_scene::GpuEnvironment* environment = nullptr;
   if (plan.on("environment_lighting") || plan.on("background")) {
     auto found = state.gpu.environment(scene, {.cube = plan::reads(plan, "environment cube"), .picture = plan::reads(plan, "environment")}, report);
@@ -173,9 +191,10 @@ Result<void> Renderer::Impl::renderView(SceneState& state, const Scene& scene, p
     environment = *found;
   }
   FrameContext c{.device = *device, .plan = plan, .programs = *programSet, .targets = *targets, .gpuScene = state.gpu, .buffers = buffers, .scene = scene, .quality = quality, .view = view.frame,
-                 .visible = view.instances, .batches = view.batches, .lights = view.lights, .transparent = view.transparent, .shadows = &view.shadows, .environment = environment, .size = target.size, .output = target.framebuffer, .report = report, .stats = stats};
+                 .visible = view.instances, .batches = view.batches, .lights = view.lights, .transparent = view.transparent, .shadows = &view.shadows, .environment = environment, .size = target.size, .output = target.framebuffer, .past = past, .moved = view.moved, .report = report, .stats = stats};
   const float display = quality.exposureEv ? exposureOf(*quality.exposureEv) : 1;
   if (request.output == Output::Display) c.preExposure = quality.exposureEv ? display : guessedExposure(view.lights, environment, scene.environment.scale);
+  preExposure = c.preExposure;
   if (auto done = gpu_scene::uploadFrameData(c, display); !done) return done;
   if (drawsInstances(plan))
     if (auto done = gpu_scene::uploadDraws(c); !done) return done;
@@ -225,12 +244,15 @@ Result<FrameStats> Renderer::render(const Scene& scene, std::span<const View> vi
   const CallState callState(*m.device, m.options.hostState);
   SceneState& state = m.stateOf(scene);
   state.derived.update(scene, &m.report);
+  const PlanOptions options = m.planOptions(target, request);
+  History* history = m.historyOf(scene, state.derived, views, target, quality, request, options);
   m.seen.resize(views.size());
   for (std::size_t i = 0; i < views.size(); ++i) {
-    plan::look(scene, state.derived, views[i], target.size, quality, m.report, m.seen[i]);
+    plan::look(scene, state.derived, views[i], target.size, quality, m.report, m.seen[i], history ? history->jitter(i) : glm::dvec2(0));
     m.boundLights(m.seen[i].lights, m.seen[i].shadows);
+    m.seen[i].moved = history ? history->motion().among(m.seen[i].instances) : std::vector<scene::Moved>{};
   }
-  m.plan = plan::planOf(scene, m.seen, quality, m.device->caps, m.planOptions(target, request), nullptr);
+  m.plan = plan::planOf(scene, m.seen, quality, m.device->caps, options, nullptr);
   for (plan::Seen& seen : m.seen) {
     if (!m.plan.on("directional_lights")) seen.lights.directional.clear();
     if (!m.plan.on("local_lights")) seen.lights.local.clear();
@@ -238,6 +260,7 @@ Result<FrameStats> Renderer::render(const Scene& scene, std::span<const View> vi
     if (!m.plan.on("directional_lights")) scene::dropShadows(seen.shadows, true);
     if (!m.plan.on("local_lights")) scene::dropShadows(seen.shadows, false);
     if (m.plan.on("deformation")) continue;
+    std::erase_if(seen.moved, [&seen](const scene::Moved& moved) { return seen.instances[moved.visible].pose != nullptr; });
     for (scene::VisibleInstance& v : seen.instances)
       if (v.pose) scene::makeRigid(scene, state.derived, seen.frame, v);
     for (scene::ShadowCaster& caster : seen.shadows.casters)
@@ -252,10 +275,18 @@ Result<FrameStats> Renderer::render(const Scene& scene, std::span<const View> vi
   if (done) done = m.targets->prepare(m.plan);
   state.gpu.beginFrame(scene, m.options.uploadBytesPerFrame);
   if (done && drawsInstances(m.plan)) done = state.gpu.updateMaterials(scene);
-  state.gpu.deformation().beginFrame(scene, false);
+  state.gpu.deformation().beginFrame(scene, history != nullptr);
   m.timers->beginFrame(timingOf(request.timing));
-  for (std::size_t i = 0; i < views.size() && done; ++i) done = m.renderView(state, scene, m.seen[i], target, quality, request, stats);
+  for (std::size_t i = 0; i < views.size() && done; ++i) {
+    gpu_scene::PastFrame past;
+    if (history) past = history->past(i, m.targets->serial(plan::historyName(request.sequence, history->source())));
+    past.sequence = request.sequence;
+    done = m.renderView(state, scene, m.seen[i], past, target, quality, request, stats);
+    if (history) history->drawn(i, m.seen[i].frame, m.preExposure);
+  }
   m.timers->endFrame();
+  if (history && done) history->end(m.targets->serial(plan::historyName(request.sequence, 1 - history->source())), state.gpu.pending() == 0);
+  if (!done) m.histories.erase(request.sequence);
   if (m.options.debugOutput) stats.glErrors = m.device->takeErrors();
   m.logNewWarnings();
   if (!done) return fail(done.error());

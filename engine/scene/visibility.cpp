@@ -101,7 +101,21 @@ bool Frustum::meetsSphere(glm::dvec3 center, double radius) const {
   return true;
 }
 
-ViewFrame frameOf(const View& view, glm::ivec2 size) {
+namespace {
+
+/// Moves the picture by so many pixels of the view.
+glm::dmat4 shifted(glm::dvec2 pixels, glm::ivec4 viewport) {
+  glm::dmat4 m(1);
+  m[3][0] = 2 * pixels.x / std::max(viewport.z, 1);
+  m[3][1] = 2 * pixels.y / std::max(viewport.w, 1);
+  return m;
+}
+
+}  // namespace
+
+glm::dmat4 withoutJitter(const ViewFrame& f) { return shifted(f.jitter, f.viewport) * f.viewProjection; }
+
+ViewFrame frameOf(const View& view, glm::ivec2 size, glm::dvec2 jitter) {
   ViewFrame f;
   f.viewport = view.viewport.z > 0 && view.viewport.w > 0 ? view.viewport : glm::ivec4(0, 0, size);
   f.orthographic = view.orthographic;
@@ -136,6 +150,9 @@ ViewFrame frameOf(const View& view, glm::ivec2 size) {
     f.depthParams = {a, b};
   }
   f.viewProjection = projection * glm::dmat4(glm::transpose(f.axes));
+  f.jitter = jitter;
+  // What lies at the sampled place comes to the pixel's middle.
+  if (jitter != glm::dvec2(0)) f.viewProjection = shifted(-jitter, f.viewport) * f.viewProjection;
   return f;
 }
 

@@ -55,10 +55,13 @@ struct ViewFrame {
   double tanX = 1, tanY = 1;              ///< half extents of the image plane at depth 1 (perspective) or in metres (orthographic)
   double near = 0.05, far = 0;            ///< far 0: infinite
   glm::dvec2 depthParams{0};              ///< perspective: depth w = x / (z + y); orthographic: w = x - z y
-  glm::dmat4 viewProjection{1};           ///< camera-relative world to clip, depth reversed in [0,1]
+  glm::dmat4 viewProjection{1};           ///< camera-relative world to clip, depth reversed in [0,1], jitter included
+  glm::dvec2 jitter{0};                   ///< pixels from their middles to where they are sampled (antialiasing over time), right and up
 };
 /// Viewport and projection of a view on a target. Values out of range (fov, near, NaN) are clamped to what can be drawn.
-ViewFrame frameOf(const View& view, glm::ivec2 targetSize);
+ViewFrame frameOf(const View& view, glm::ivec2 targetSize, glm::dvec2 jitter = {0, 0});
+/// ViewFrame::viewProjection as if pixels were sampled in their middles.
+glm::dmat4 withoutJitter(const ViewFrame& frame);
 /// The same frame narrowed to one pixel of the viewport, drawn to a 1x1 target (picking).
 ViewFrame narrowed(const ViewFrame& frame, glm::ivec2 pixel);
 

@@ -28,7 +28,7 @@ float lastLevel() { return frame.environment.x; }
 Surface surfaceHere(Fetched f, vec3 toEye) {
   float n2 = dot(f.normal, f.normal);
   vec3 n = n2 > BURNISH_GUARD_LENGTH ? f.normal * inversesqrt(n2) : vec3(0.0, 0.0, 1.0);
-  Surface m = makeSurface(n, toEye, vec3(unitClamp(f.albedo.r), unitClamp(f.albedo.g), unitClamp(f.albedo.b)), unitClamp(f.code), alphaFromRoughness(f.roughness));
+  Surface m = makeSurface(n, toEye, vec3(unitClamp(f.albedo.r), unitClamp(f.albedo.g), unitClamp(f.albedo.b)), unitClamp(f.code), f.alpha);
   m.eta = material.conductorEta.rgb;
   m.k = material.conductorK.rgb;
 #if ANISOTROPIC

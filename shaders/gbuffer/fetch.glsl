@@ -1,6 +1,7 @@
 // What the maps and factors say of the surface at this fragment: the G-buffer writes it, the forward path shades it.
 // Definitions: GENERAL, ALPHA_TEST, OCCLUSION (0 none, 1 from map C, 2 none on this material, 3 from the third channel of map B), PACKED (1: that channel is an
-// occlusion map's, read or not: the normal's z follows from x and y), ANISOTROPIC, COVERAGE (1: blended surfaces cover the share of a pixel that map C and the vertex colours say; 0 where it is not defined).
+// occlusion map's, read or not: the normal's z follows from x and y), ANISOTROPIC, COVERAGE (1: blended surfaces cover the share of a pixel that map C and the vertex colours say; 0 where
+// it is not defined), SPECULAR_ANTIALIASING (1: lobes widen by what the normal turns within a pixel). The includer has included shading/roughness.h and shading/filter.h.
 #ifndef COVERAGE
 #define COVERAGE 0
 #endif
@@ -18,7 +19,7 @@ layout(binding = UNIT_METAL_ROUGH) uniform sampler2D mapMetalRough;
 struct Fetched {
   vec3 albedo;
   float code;       // of the substance
-  float roughness;  // held at BURNISH_ROUGHNESS_MIN
+  float alpha;      // width of the lobe; roughness is held at BURNISH_ROUGHNESS_MIN
   vec3 normal;      // camera-relative world space, any length
   float occlusion;
   float coverage;
@@ -63,6 +64,18 @@ Fetched fetchMaterial() {
     roughness = sqrt(sqrt(alpha2));
   }
 #endif
+  // 128 is zero: 8-bit normal maps hold flat as (128, 128, 255).
+  vec3 mapped = b.rgb * (255.0 / 127.0) - vec3(128.0 / 127.0);
+#if PACKED
+  mapped.z = sqrt(max(1.0 - mapped.x * mapped.x - mapped.y * mapped.y, 0.0));
+#endif
+  f.normal = shadingNormal(mapped);
+  f.alpha = alphaFromRoughness(clamp(roughness, BURNISH_ROUGHNESS_MIN, 1.0));
+#if SPECULAR_ANTIALIASING
+  // Before anything is discarded: derivatives want all four pixels.
+  vec3 n = f.normal * inversesqrt(max(dot(f.normal, f.normal), BURNISH_GUARD_LENGTH));
+  f.alpha = filteredAlpha(f.alpha, dFdx(n), dFdy(n));
+#endif
 #if OCCLUSION == 1 || ALPHA_TEST || COVERAGE
   vec2 c = texture(mapC, mapUv(2)).rg;
 #endif
@@ -80,13 +93,6 @@ Fetched fetchMaterial() {
   if (material.more.z > 0.5) f.coverage *= vertexColor.a;
 #endif
 #endif
-  // 128 is zero: 8-bit normal maps hold flat as (128, 128, 255).
-  vec3 mapped = b.rgb * (255.0 / 127.0) - vec3(128.0 / 127.0);
-#if PACKED
-  mapped.z = sqrt(max(1.0 - mapped.x * mapped.x - mapped.y * mapped.y, 0.0));
-#endif
-  f.roughness = clamp(roughness, BURNISH_ROUGHNESS_MIN, 1.0);
-  f.normal = shadingNormal(mapped);
 #if OCCLUSION == 1
   f.occlusion = 1.0 + material.params.w * (c.r - 1.0);
 #elif OCCLUSION == 3

@@ -1,10 +1,11 @@
 // Fills the G-buffer: RT0 albedo (square root) + substance code, RT1 octahedral normal 2x12 + log-alpha code, then baked ambient occlusion and shading/detail.h's four bytes, if there.
-// Definitions: GENERAL, ALPHA_TEST, OCCLUSION (gbuffer/fetch.glsl; 0: no target for it), ANISOTROPIC, ROUGH_DIFFUSE (1: the surface's; either writes the target of details).
+// Definitions: GENERAL, ALPHA_TEST, OCCLUSION (gbuffer/fetch.glsl; 0: no target for it), SPECULAR_ANTIALIASING (likewise), ANISOTROPIC, ROUGH_DIFFUSE (1: the surface's; either writes the target of details).
 #include "shading/bridge.h"
 #include "shading/constants.h"
 #include "shading/rungs.h"
 #include "shading/roughness.h"
 #include "shading/normals.h"
+#include "shading/filter.h"
 #include "shading/albedo.h"
 #if ANISOTROPIC || ROUGH_DIFFUSE
 #include "shading/anisotropy.h"
@@ -25,12 +26,12 @@ layout(location = OCCLUSION == 0 ? 2 : 3) out vec4 outDetail;
 void main() {
   Fetched f = fetchMaterial();
   outAlbedoSubstance = vec4(encodeAlbedo(f.albedo), f.code);
-  outNormalRoughness = vec4(packNormal(f.normal), encodeAlpha(storedAlpha(alphaFromRoughness(f.roughness))));
+  outNormalRoughness = vec4(packNormal(f.normal), encodeAlpha(storedAlpha(f.alpha)));
 #if OCCLUSION
   outOcclusion = f.occlusion;
 #endif
 #if ANISOTROPIC
-  outDetail = packDetail(unpackNormal(outNormalRoughness.rgb), brushedTangent(), brushedAlphaX(alphaFromRoughness(f.roughness)), ROUGH_DIFFUSE == 1 ? material.attenuation.w : 0.0);
+  outDetail = packDetail(unpackNormal(outNormalRoughness.rgb), brushedTangent(), brushedAlphaX(f.alpha), ROUGH_DIFFUSE == 1 ? material.attenuation.w : 0.0);
 #elif ROUGH_DIFFUSE
   outDetail = vec4(0.0, 0.0, 0.0, material.attenuation.w);
 #endif

@@ -41,10 +41,14 @@
 #define UNIT_SCENE_DEPTH 9  // and no exposure
 #define UNIT_SHADOW 14        // shadow maps, compared
 #define UNIT_SHADOW_DEPTH 15  // and as depths
+#define UNIT_HISTORY 0
+#define UNIT_HISTORY_DISTANCE 1
+#define UNIT_VELOCITY 3
 
 // Vertex attributes
 #define ATTRIBUTE_POSITION 0
 #define ATTRIBUTE_NORMAL 1
+#define ATTRIBUTE_PREVIOUS 1  // of motion vectors: the position in the frame before
 #define ATTRIBUTE_TANGENT 2
 #define ATTRIBUTE_UV0 3
 #define ATTRIBUTE_UV1 4

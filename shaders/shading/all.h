@@ -1,6 +1,7 @@
 // The terms in the order of their dependence: what a lighting pass includes after bridge.h, and what reference/shading.h wraps.
 #include "shading/lobes.h"
 #include "shading/normals.h"
+#include "shading/filter.h"
 #include "shading/albedo.h"
 #include "shading/detail.h"
 #include "shading/diffuse.h"
@@ -11,5 +12,6 @@
 #include "shading/sampling.h"
 #include "shading/environment.h"
 #include "shading/occlusion.h"
+#include "shading/history.h"
 #include "shading/transmission.h"
 #include "shading/fog.h"

@@ -66,6 +66,8 @@ const std::map<std::string, const char*> kElsewhere = {
     {"shadow=pcss", "lookups of a map (tests/render); its functions are in tests/shading"},
     {"antialiasing=none", "the term left out"},
     {"antialiasing=edge", "a pass (tests/render)"},
+    {"antialiasing=temporal", "passes (tests/render); their functions have rows"},
+    {"specular-antialiasing=none", "the term left out"},
     {"bloom=none", "the term left out"},
     {"bloom=scatter", "a pass (tests/render)"},
 };

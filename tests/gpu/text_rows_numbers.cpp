@@ -29,6 +29,7 @@ const Domain kDistributions = numbers("distributions", {kSin2, kAlpha, kUnit, kP
 const Domain kNormalizations = numbers("normalizations", {kZero, kPower});
 const Domain kVisibility = numbers("visibility", {kCosine, kCosine, kAlpha, kCosine, kCosine});
 const Domain kMasking = numbers("masking", {kCosine, kCosine, kAlphaUnit, kCosine, kCosine});
+const Domain kPixels = numbers("pixels", {kUnit, kAny, kAny, kAny, kAny, kAny, kAny});
 const Domain kLogarithms = numbers("logarithms", {kUnit, kPower});
 
 /// a: heights (m) over the reference, way, clear part; b: extinction, falloff, cosine, g. Half of the ways are level or nearly so.
@@ -59,6 +60,8 @@ void addConversions(std::vector<Row>& rows) {
   rows.push_back({"powerFromAlpha", {}, &kConversion, TEXT(vec4(powerFromAlpha(a.y), R(0.0), R(0.0), R(0.0))), {}, 0,
                   {" ulp of p + 2", [](const Row&, const Case&, const glm::dvec4& exact, int) { return (exact.x + 2) * 0x1p-23; }}, 3, ranges({0, 2e12})});
   rows.push_back({"encodeAlpha, decodeAlpha", {}, &kConversion, TEXT(vec4(encodeAlpha(a.y), decodeAlpha(a.x), R(0.0), R(0.0))), {}, 0, absolute(), 8e-7, ranges({-1e-6, 1}, {4e-4, 1})});
+  rows.push_back({"filteredAlpha", {rungName("specular-antialiasing", 1)}, &kPixels, TEXT(vec4(filteredAlpha(a.x, vec3(a.y, a.z, a.w), vec3(b.x, b.y, b.z)), R(0.0), R(0.0), R(0.0))), {}, 0, absolute(), 5e-7,
+                  [](const Row&, const Case& in) { return Ranges{{{std::max(0.0, double(in[0].x) - 1e-6), std::min(1.0, std::sqrt(double(in[0].x) * double(in[0].x) + 0.18))}}}; }});
   rows.push_back({"logOneMinus, oneMinusExp", {}, &kLogarithms, TEXT(vec4(logOneMinus(a.x), oneMinusExp(a.y), R(0.0), R(0.0))), {}, 0, relative(), 1e-6,
                   ranges({-69.08, 0}, {0, 1})});  // ln BURNISH_GUARD_LOG
 }

@@ -51,6 +51,7 @@ const Domain kHarmonics{"spherical harmonics",
                           made[0] = glm::vec4(hardUnit(random), made[0].w);
                           return made;
                         }};
+const Domain kBoxes = numbers("boxes of colours", {kUnit, kUnit, kUnit, kUnit, kUnit, kUnit, kUnit, kUnit, kUnit});
 const Domain kOcclusion = numbers("occlusion", {kCosine, kCosine, kAlpha});
 /// a: normal; b: to the eye; c: a direction of the screen; d: an occluder's place.
 const Domain kSlices{"slices of the hemisphere",
@@ -153,6 +154,11 @@ void addSurroundings(std::vector<Row>& rows) {
   tone("tonemapNeutral", TEXT(vec4(tonemapNeutral(vec3(a)), R(0.0))), 6e-7);
   tone("tonemapAces", TEXT(vec4(tonemapAces(vec3(a)), R(0.0))), 2e-6);
   tone("tonemapAgx", TEXT(vec4(tonemapAgx(vec3(a)), R(0.0))), 6e-5);
+  rows.push_back({"lumaFromRgb, rgbFromLuma", {}, &kMaps, TEXT(vec4(rgbFromLuma(lumaFromRgb(vec3(a))), R(0.0))), {}, 0, absolute(), 5e-7, within(-1e-6, 1 + 1e-6)});
+  rows.push_back({"compressLight, lumaOf", {}, &kRadiances, TEXT(vec4(compressLight(vec3(a)), R(0.0))), {}, 0, absolute(), 2e-5, within(0, 2 / 0.0722)});
+  rows.push_back({"expandLight", {}, &kMaps, TEXT(vec4(expandLight(vec3(a) * R(1.5)), R(0.0))), {}, 0, absolute(), 5e-6, within(0, 2.01)});
+  rows.push_back({"clippedToward", {}, &kBoxes, TEXT(vec4(clippedToward(vec3(a.x, a.y, a.z), vec3(a.w, b.x, b.y), vec3(b.z, b.w, c.x)), R(0.0))), {}, 0, absolute(), 1e-6, within(-1e-6, 1 + 1e-6)});
+  rows.push_back({"catmullRom", {}, &kMaps, TEXT(catmullRom(a.x)), {}, 0, absolute(), 5e-7, within(-0.0742, 1 + 1e-6)});
   rows.push_back({"srgbFromLinear, srgbFromLinearFast, linearFromSrgb", {}, &kMaps, TEXT(vec4(srgbFromLinear(a.x), srgbFromLinearFast(a.y), linearFromSrgb(a.z), R(0.0))), {}, 0, absolute(), 2e-6, within(0, 1 + 0.1 / 255)});
 }
 

@@ -296,7 +296,19 @@ Observation observe(const Subject& s, const ObserveOptions& options) {
   request.countNonfinite = s.countNonfinite;
   if (s.hostDraw) request.hostDraw = [](const HostDraw&) {};
   Observation seen;
-  for (const bool steady : {false, true}) {
+  // The subject is as it was when this is over. Its scene is the renderer's by identity: a copy would be another one.
+  Node* moving = nullptr;
+  glm::dmat4 standing(1);
+  for (const bool second : {false, true}) {
+    const bool steady = second && !s.moves;
+    if (second && s.moves) {
+      Scene& scene = const_cast<Scene&>(s.scene);
+      const Instance* instance = scene.instances.get(scene.instances.at(1));
+      moving = instance ? scene.nodes.edit(instance->node) : nullptr;
+      REQUIRE(moving);
+      standing = moving->local;
+      moving->local[3].x += 0.05;
+    }
     ledger.forgetWork();
     const std::int64_t before = ledger.bytes();
     if (steady && options.plant) recorder.after([&](Function f) { options.plant(recorder, f); });
@@ -304,12 +316,13 @@ Observation observe(const Subject& s, const ObserveOptions& options) {
     recorder.after({});
     if (!stats) FAIL(s.name << ": " << stats.error().message());
     seen.plan = (*renderer)->lastPlan();
-    Recording& frame = steady ? seen.second : seen.first;
+    Recording& frame = second ? seen.second : seen.first;
     frame = recorder.take();
-    for (std::string& text : strays(seen.plan, s.scene, frame, ledger, steady)) seen.strays.push_back(fmt::format("{} frame: {}", steady ? "second" : "first", text));
+    for (std::string& text : strays(seen.plan, s.scene, frame, ledger, steady)) seen.strays.push_back(fmt::format("{} frame: {}", second ? "second" : "first", text));
     if (steady && ledger.bytes() != before) seen.strays.push_back(fmt::format("the second frame takes {} bytes more", ledger.bytes() - before));
     if (ledger.bytes(ObjectKind::Texture) != std::int64_t(stats->textureBytes)) seen.strays.push_back(fmt::format("{} bytes of textures; the statistics say {}", ledger.bytes(ObjectKind::Texture), stats->textureBytes));
   }
+  if (moving) moving->local = standing;
   seen.objects = ledger.inventory();
   seen.bytes = ledger.bytes();
   for (const std::string& name : ledger.unmodelled) seen.strays.push_back("nobody keeps account of gl" + name);

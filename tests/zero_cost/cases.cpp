@@ -125,6 +125,12 @@ constexpr EffectCase kAutoExposure{"auto_exposure",
 constexpr EffectCase kBloom{"bloom", [](Subject& s) { s.quality.bloom = Bloom::None; }, [](Subject& s) { s.quality.bloom = Bloom::Scatter; }};
 constexpr EffectCase kToneMapping{"tone_mapping", [](Subject& s) { s.output = Output::Linear; }, [](Subject& s) { s.output = Output::Display; }};
 constexpr EffectCase kEdgeAntialiasing{"edge_antialiasing", [](Subject& s) { s.quality.antialiasing = Antialiasing::None; }, [](Subject& s) { s.quality.antialiasing = Antialiasing::Edge; }};
+constexpr EffectCase kTemporalAntialiasing{"temporal_antialiasing", [](Subject& s) { s.quality.antialiasing = Antialiasing::None; }, [](Subject& s) { s.quality.antialiasing = Antialiasing::Temporal; }};
+constexpr EffectCase kMotionVectors{"motion_vectors", [](Subject& s) { s.moves = false; },
+                                    [](Subject& s) {
+                                      s.quality.antialiasing = Antialiasing::Temporal;
+                                      s.moves = true;
+                                    }};
 constexpr EffectCase kLinearOutput{"linear_output", [](Subject& s) { s.output = Output::Display; }, [](Subject& s) { s.output = Output::Linear; }};
 constexpr EffectCase kDebugView{"debug_view", [](Subject& s) { s.debugView = DebugView::Final; }, [](Subject& s) { s.debugView = DebugView::Normal; }};
 constexpr EffectCase kHostDepthIn{"host_depth_in", [](Subject& s) { s.hostDepthIn = false; }, [](Subject& s) { s.hostDepthIn = true; }};
@@ -154,6 +160,8 @@ constexpr EffectCase kCases[] = {
     kBloom,
     kToneMapping,
     kEdgeAntialiasing,
+    kTemporalAntialiasing,
+    kMotionVectors,
     kLinearOutput,
     kDebugView,
     kHostDepthIn,

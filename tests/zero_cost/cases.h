@@ -16,6 +16,7 @@ struct Subject {
   Output output = Output::Display;
   DebugView debugView = DebugView::Final;
   bool countNonfinite = false, hostDepthIn = false, hostDepthOut = false, hostDraw = false;
+  bool moves = false;  ///< an instance stands elsewhere in the second frame
 };
 
 struct EffectCase {

@@ -13,6 +13,7 @@ using burnish::fail;
 using burnish::Result;
 
 constexpr int kUnmeasuredFrames = 2;  // the first compiles and uploads, the second has its timer queries still under way
+constexpr int kTemporalFrames = 16;   // of one picture with antialiasing over time, unless --frames says otherwise
 constexpr int kMostLateFrames = 4;    // after the last measured frame, to let its timer queries arrive
 
 struct RenderArguments {
@@ -70,7 +71,7 @@ Result<burnish::Image> draw(Session& session, const LoadedScene& loaded, const R
   request.output = arguments.outputKind();
   request.debugView = arguments.debugView;
   const bool timed = arguments.timed();
-  const int frames = std::max(arguments.frames, 1);
+  const int frames = arguments.frames > 0 ? arguments.frames : arguments.scene.quality().antialiasing == burnish::Antialiasing::Temporal ? kTemporalFrames : 1;
   const auto mode = !timed ? burnish::TimingMode::Off : arguments.profile ? burnish::TimingMode::Profile : burnish::TimingMode::Async;
 
   for (int i = 0; i < (timed ? kUnmeasuredFrames : 0); ++i) {
@@ -83,9 +84,9 @@ Result<burnish::Image> draw(Session& session, const LoadedScene& loaded, const R
   }
   progress.stage("rendering");
   request.timing = mode;
-  request.countNonfinite = !timed;
   for (int i = 0; i < frames; ++i) {
     progress.step(i, frames);
+    request.countNonfinite = !timed && i + 1 == frames;
     auto stats = drawFrame(session, loaded, arguments, request, timed ? &report : nullptr);
     if (!stats) return fail(stats.error());
     report.addCounts(*stats, request.countNonfinite);
@@ -175,7 +176,7 @@ Command addRender(CLI::App& program) {
       ->type_name("IMG.png|.exr");
   const auto views = burnish::debugViewNames();
   addChoice(*app, "--view", {views.begin(), views.end()}, [arguments](std::size_t i) { arguments->debugView = burnish::DebugView(i); }, "what to draw");
-  app->add_option("--frames", arguments->frames, "draw N frames and report median and p95 times; the last one is the picture, two unmeasured ones go first")
+  app->add_option("--frames", arguments->frames, "draw N frames and report median and p95 times; the last one is the picture, two unmeasured ones go first. antialiasing=temporal draws 16 if nothing is said")
       ->type_name("N")
       ->check(CLI::Range(1, 100000));
   app->add_flag("--profile", arguments->profile, "finish between passes: per-pass times that are right on software renderers too");

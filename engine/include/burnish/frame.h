@@ -14,7 +14,7 @@ struct HostDepth {
 /// What the host's draw callback gets: bound framebuffer (light buffer + depth), matrices, pre-exposure. It may change any GL state that HostState::Save lists.
 struct HostDraw {
   unsigned framebuffer = 0;
-  glm::mat4 viewProjection{1};  ///< camera-relative world space (world minus eye) to clip space, depth reversed in [0,1]
+  glm::mat4 viewProjection{1};  ///< camera-relative world space (world minus eye) to clip space, depth reversed in [0,1]; with antialiasing=temporal it moves by parts of a pixel
   glm::dvec3 eye{0};
   glm::ivec4 viewport{0};
   float exposure = 1;           ///< multiply radiance in cd/m² by this before writing it
@@ -51,6 +51,9 @@ struct RenderRequest {
   DebugView debugView = DebugView::Final;
   TimingMode timing = TimingMode::Off;
   bool countNonfinite = false;  ///< waits for the GPU; with automatic exposure it reads FrameStats::exposureEv too
+  /// Which pictures this one follows: antialiasing=temporal keeps a history for each number, and in it one for each view in order. Calls that take turns (two windows, a mirror) give
+  /// each its own.
+  int sequence = 0;
   std::function<void(const HostDraw&)> hostDraw;  ///< called after lighting, before tone mapping, once per view
 };
 

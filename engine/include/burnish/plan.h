@@ -15,6 +15,7 @@ struct View {
   float height = 2;         ///< metres (orthographic)
   float near = 0.05f, far = 0;  ///< as Camera's
   glm::ivec4 viewport{0};   ///< x, y (from the bottom), width, height in pixels; zero size: the whole target
+  bool cut = false;         ///< the camera jumped: antialiasing=temporal begins anew in this frame
 };
 /// eye, target and up in metres, world space. Degenerate input (eye = target, up parallel) gives a valid view that looks somewhere sensible.
 BURNISH_API View lookAt(glm::dvec3 eye, glm::dvec3 target, glm::dvec3 up = {0, 1, 0}, float fovY = 0.8726646f);
@@ -96,6 +97,7 @@ struct PlanOptions {
   DebugView debugView = DebugView::Final;
   bool hostDepthIn = false, hostDepthOut = false, hostDraw = false;
   bool countNonfinite = false;
+  int sequence = 0;  ///< RenderRequest::sequence
   TileBounds tileBounds = TileBounds::Automatic;
   /// Plans as if everything in the scene were in view: what Renderer::warmUp wants, so that turning around compiles nothing. An executed plan is of what the views see.
   bool wholeScene = false;

@@ -34,8 +34,10 @@ enum class RoughDiffuse : std::uint8_t { None, OrenNayar };     ///< of material
 enum class Path : std::uint8_t { Deferred, Forward };
 enum class Shadow : std::uint8_t { None, Tap, Pcf, Pcss };
 // Of the picture, not of the lighting equation (docs/post.md).
-enum class Antialiasing : std::uint8_t { None, Edge };
+enum class Antialiasing : std::uint8_t { None, Edge, Temporal };
 enum class Bloom : std::uint8_t { None, Scatter };
+// Of how the lighting equation is sampled (docs/antialiasing.md).
+enum class SpecularAntialiasing : std::uint8_t { None, Geometric };
 
 struct Quality {
   Specular specular = Specular::Microfacet;          ///< the next four count for Microfacet alone; Lobe for every power of a cosine
@@ -64,6 +66,7 @@ struct Quality {
   int shadowMaps = 64;          ///< of one view, 1 to 1024; a directional light takes shadowCascades, a spot light 1 (6 when wider than 60 degrees from its axis), a point light up to 6
 
   Antialiasing antialiasing = Antialiasing::None;
+  SpecularAntialiasing specularAntialiasing = SpecularAntialiasing::None;
   Bloom bloom = Bloom::None;
   /// Share of the light that bloom scatters, 0 to 1.
   float bloomShare = 0.08f;
@@ -91,7 +94,7 @@ struct Term {
   std::string_view name;  ///< as --set spells it
   std::string_view what;
   std::span<const Rung> rungs;
-  bool picture = false;   ///< no part of a surface's lighting equation: it works on the finished picture, or decides which light arrives
+  bool picture = false;   ///< no part of a surface's lighting equation: it works on the finished picture or on how it is sampled, or decides which light arrives
 };
 
 /// Every term. The index of a term is what rungOf and setRung take.
