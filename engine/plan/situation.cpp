@@ -127,7 +127,7 @@ Facts factsOf(const Scene& scene, std::span<const Seen> views, const Quality& qu
     for (const scene::Batch& b : view.batches) addBatch(scene, view.instances[b.first], int(b.count), quality, allowed, facts);
     addGroups(scene, view, allowed, facts);
     addLights(scene, view.lights, facts);
-    if (view.fogDepth > scene::kLeastFog) facts.why[std::size_t(Call::Fog)] = "the scene's fog";
+    if (view.fogDepth > scene::kLeastFog || (options.wholeScene && scene.fog.density > 0)) facts.why[std::size_t(Call::Fog)] = "the scene's fog";
   }
   addEnvironment(scene.environment, facts);
   if (const auto& sun = scene.environment.sun)
