@@ -158,7 +158,7 @@ Facts factsOf(const Scene& scene, std::span<const Seen> views, const Quality& qu
     for (const scene::Batch& b : view.batches) addBatch(scene, view.instances[b.first], int(b.count), quality, allowed, facts);
     addGroups(scene, view, allowed, facts);
     addLights(scene, view.lights, facts);
-    if (view.fogDepth > scene::kLeastFog) facts.why[std::size_t(Call::Fog)] = "the scene's fog";
+    if (view.fogDepth > scene::kLeastFog || (options.wholeScene && scene.fog.density > 0)) facts.why[std::size_t(Call::Fog)] = "the scene's fog";
     addShadows(scene, view.shadows, facts);
     if (!view.moved.empty()) facts.call(Call::Moving, "instance", view.instances[view.moved.front().visible].instance->name, " moves", int(view.moved.size()));
   }

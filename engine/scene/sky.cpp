@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "prefilter/spectrum.h"
+
 namespace burnish {
 namespace {
 
@@ -42,7 +44,7 @@ void setEnvironment(Environment& e, const prefilter::SkyModel& model, prefilter:
   e.color = glm::vec3(0);
   e.scale = scale;
   e.sun.reset();
-  if (glm::length(picture.sunRadiance) > 0) e.sun = {model.toSun, glm::vec3(picture.sunRadiance), float(prefilter::kSunRadius), float(picture.horizon)};
+  if (glm::length(picture.sunRadiance) > 0) e.sun = Environment::Sun{model.toSun, glm::vec3(picture.sunRadiance), float(prefilter::kSunRadius), float(picture.horizon)};
   ++e.revision;
 }
 

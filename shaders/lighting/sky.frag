@@ -24,9 +24,10 @@ layout(location = 0) out vec4 outRadiance;
 // A disc with an edge one pixel wide. One smaller than a pixel is drawn as wide as that and dimmer, so that its light stays the same wherever it stands.
 vec3 sunDisc(vec3 d) {
   float pixel = sqrt(length(frame.rayX.xyz) * length(frame.rayY.xyz) * pow(dot(d, frame.forward.xyz), 3.0));  // radians: the root of its solid angle
-  float angle = distance(d, frame.sun[0].xyz), radius = max(frame.sun[0].w, pixel), dimmed = frame.sun[0].w / radius;
-  float share = clamp(0.5 + (radius - angle) / pixel, 0.0, 1.0) * clamp(0.5 + (d.y - frame.sun[1].w) / pixel, 0.0, 1.0);
-  return frame.sun[1].rgb * (share * dimmed * dimmed);
+  // An edge that falls over one pixel adds pixel^2/12 to the square of the radius.
+  float edge = pixel * pixel / 12.0, own = frame.sun[0].w * frame.sun[0].w, drawn = max(own - edge, pixel * pixel);
+  float share = clamp(0.5 + (sqrt(drawn) - distance(d, frame.sun[0].xyz)) / pixel, 0.0, 1.0) * clamp(0.5 + (d.y - frame.sun[1].w) / pixel, 0.0, 1.0);
+  return frame.sun[1].rgb * (share * own / (drawn + edge));
 }
 #endif
 

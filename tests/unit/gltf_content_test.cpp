@@ -230,6 +230,24 @@ TEST_CASE("fog of a scene: its numbers, and one clear error for what is none", "
   }
 }
 
+TEST_CASE("sky of a scene: its numbers, and one clear error for what is none", "[gltf]") {
+  const auto withSky = [](Json ours) { return readJson({{"scenes", {{{"extras", {{"burnish", std::move(ours)}}}}}}}); };
+  const Reading r = withSky({{"sky", {{"sun", {0, 3, 4}}, {"turbidity", 4}, {"ground", {0.1, 0.2, 0.3}}, {"altitude", 100}}}});
+  INFO(r.message());
+  REQUIRE(r.asset);
+  REQUIRE(r.asset->sky);
+  CHECK((r.asset->sky->sun == glm::vec3(0, 3, 4) && r.asset->sky->turbidity == 4 && r.asset->sky->altitude == 100));
+  CHECK(r.asset->sky->ground == glm::vec3(0.1f, 0.2f, 0.3f));
+  box().put("sky.hdr", "x");
+  for (const Json& bad : {Json{{"sky", Json::object()}}, Json{{"sky", {{"sun", {0, 0, 0}}}}}, Json{{"sky", {{"sun", {0, 1}}}}},
+                          Json{{"sky", {{"sun", {0, 1, 0}}, {"turbidity", 0.5}}}}, Json{{"environment", "sky.hdr"}, {"sky", {{"sun", {0, 1, 0}}}}}}) {
+    const Reading refused = withSky(bad);
+    CAPTURE(bad.dump());
+    CHECK_FALSE(refused.asset);
+    CHECK(refused.message().find("/scenes/0/extras/burnish/sky") != std::string::npos);
+  }
+}
+
 TEST_CASE("cameras and lights", "[gltf]") {
   Json file = {{"extensionsUsed", {"KHR_lights_punctual"}},
                {"cameras",

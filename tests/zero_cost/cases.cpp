@@ -104,8 +104,28 @@ constexpr EffectCase kLocalLights{"local_lights", [](Subject& s) { enableLights(
                                     addLight(s.scene, light(LightKind::Spot, {0.4f, 0.6f, 1}, 30, 6), {1, 2, 1}, {-0.5, -1, -0.5});
                                   }};
 
+constexpr EffectCase kShadows{"shadows",
+                              [](Subject& s) {
+                                std::vector<Id<Light>> ids;
+                                s.scene.lights.each([&](Id<Light> id, const Light&) { ids.push_back(id); });
+                                for (const Id<Light> id : ids) s.scene.lights.edit(id)->castsShadow = false;
+                              },
+                              [](Subject& s) {
+                                std::vector<Id<Light>> ids;
+                                s.scene.lights.each([&](Id<Light> id, const Light&) { ids.push_back(id); });
+                                for (const Id<Light> id : ids) s.scene.lights.edit(id)->castsShadow = true;
+                              }};
 constexpr EffectCase kEnvironmentLighting{"environment_lighting", [](Subject& s) { setEnvironment(s, 0, false); }, [](Subject& s) { setEnvironment(s, 1, false); }};
 constexpr EffectCase kBackground{"background", [](Subject& s) { s.scene.environment.background = false; }, [](Subject& s) { setEnvironment(s, 1, true); }};
+
+constexpr EffectCase kSunDisc{"sun_disc", [](Subject& s) { s.scene.environment.sun.reset(); },
+                              [](Subject& s) {
+                                setEnvironment(s, 1, true);
+                                Environment::Sun& sun = s.scene.environment.sun.emplace();
+                                sun.toSun = glm::normalize(vec3(s.view.axes * glm::dvec3(0.2, 0.2, -1)));
+                                sun.radiance = vec3(1e4f);
+                                sun.radius = 0.05f;
+                              }};
 
 // ---- called by settings ----
 
@@ -151,8 +171,10 @@ constexpr EffectCase kCases[] = {
     kFog,
     kDirectionalLights,
     kLocalLights,
+    kShadows,
     kEnvironmentLighting,
     kBackground,
+    kSunDisc,
     kBakedOcclusion,
     kForwardReference,
     kScreenOcclusion,
