@@ -60,7 +60,7 @@ inline double twoWidthsCeiling(const shading::Rungs& k, const Seen& s) {
   switch (k.specular) {
     case SPECULAR_WARD_ANISOTROPIC: return 0.25 / (kPi * widths) * (1 + 1e-5) * std::sqrt(s.nol / std::max(s.nov, 1e-4));
     case SPECULAR_WARD_BOUNDED: return peak * s.inverse * s.nol;
-    default: return peak * std::min(0.5e12, k.geometry == GEOMETRY_KELEMEN && k.specular == SPECULAR_MICROFACET ? s.nol * s.inverse : 0.5 / std::max(s.nov, 1e-12));
+    default: return peak * std::min(0.5e12, k.geometry == GEOMETRY_KELEMEN && k.specular == SPECULAR_MICROFACET ? s.nol * s.inverse : 1 / std::max(s.nov, 1e-12));
   }
 }
 

@@ -1,5 +1,6 @@
 // Past each limit of docs/limits.md: a warning or an error that names it, and a picture where there can be one. Limits of reading are in tests/unit and tests/tools.
 #include <algorithm>
+#include <limits>
 
 #include "render/scenes.h"
 
