@@ -91,7 +91,7 @@ Result<void> drawInstances(FrameContext& c, plan::GeometryPass pass, bool occlus
     if (!wants(material)) continue;
     plan::GeometryVariant variant = plan::variantOf(material, *v.mesh);
     variant.instanced = batch.count > 1;
-    if (!occlusionTarget) variant.occlusionMap = variant.packed = false;
+    if (!occlusionTarget) variant.occlusionMap = false;
     auto program = programs.of(variant);
     if (!program) return fail(program.error());
     if (!(variant.instanced ? gpu_scene::bindInstances(c, batch, variant.general, bound) : gpu_scene::bindInstance(c, batch.first, variant.general, bound))) continue;

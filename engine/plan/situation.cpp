@@ -36,7 +36,7 @@ void addBatch(const Scene& scene, const scene::VisibleInstance& seen, int count,
   const Material& material = found ? *found : kDefault;
   GeometryVariant variant = variantOf(material, *seen.mesh);
   variant.instanced = count > 1;
-  if (quality.occlusion == Occlusion::None) variant.occlusionMap = variant.packed = false;
+  if (quality.occlusion == Occlusion::None) variant.occlusionMap = false;
   facts.call(Call::Geometry, "instance", seen.instance->name, "", count);
   if (seen.pose) {
     facts.call(Call::Deformation, "instance", seen.instance->name, seen.pose->skinned ? " has a skin" : " has morph weights", count);

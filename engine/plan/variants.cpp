@@ -17,7 +17,7 @@ GeometryVariant variantOf(const Material& m, const Mesh& mesh) {
   v.general = mapped || bool(m.metalRoughMap) || (m.useVertexColor && !mesh.colors.empty());
   v.alphaTest = m.alphaTest;
   v.occlusionMap = m.mapC && m.occlusionStrength > 0;
-  v.packed = v.occlusionMap && packsOcclusion(m);
+  v.packed = packsOcclusion(m);
   return v;
 }
 
@@ -41,7 +41,8 @@ bool drawnTransparent(const Material& m, bool blend, bool glass) { return scene:
 
 TransparentVariant transparentVariantOf(const Material& m, const Mesh& mesh, bool occlusion) {
   TransparentVariant v;
-  v.geometry = occlusion ? variantOf(m, mesh) : variantOf(m, mesh).withoutOcclusion();
+  v.geometry = variantOf(m, mesh);
+  if (!occlusion) v.geometry.occlusionMap = false;
   v.through = !scene::isGlass(m) ? Through::Blend : scene::refracts(m) ? Through::Refract : Through::Clear;
   v.coverage = m.blend && (m.mapC || (m.useVertexColor && !mesh.colors.empty()));
   v.emits = emits(m);
@@ -60,6 +61,8 @@ ProgramPlan geometryProgram(GeometryPass pass, GeometryVariant variant, bool occ
   if (variant.instanced) p.name += "+instanced";
   if (pass == GeometryPass::GBuffer) {
     p.defines.push_back(define("OCCLUSION", !occlusionTarget ? 0 : !variant.occlusionMap ? 2 : variant.packed ? 3 : 1));
+    p.defines.push_back(define("PACKED", variant.packed));
+    if (!occlusionTarget && variant.packed) p.name += "+packed";
     if (occlusionTarget) p.name += !variant.occlusionMap ? "+unoccluded" : variant.packed ? "+ao" : "+ao_map";
   }
   return p;

@@ -9,7 +9,7 @@ struct GeometryVariant {
   bool alphaTest = false;
   bool occlusionMap = false;
   bool instanced = false;  ///< many at once: DrawData comes as vertex attributes
-  bool packed = false;     ///< with occlusionMap: it rides in map B's third channel (gpu_scene), so that two lookups do
+  bool packed = false;     ///< its occlusion map rides in map B's third channel (gpu_scene), read or not, so that two lookups do: the normal's z follows from x and y
   [[nodiscard]] GeometryVariant withoutOcclusion() const {
     GeometryVariant v = *this;
     v.occlusionMap = v.packed = false;

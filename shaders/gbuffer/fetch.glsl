@@ -1,6 +1,6 @@
 // What the maps and factors say of the surface at this fragment: the G-buffer writes it, the forward path shades it.
-// Definitions: GENERAL, ALPHA_TEST, OCCLUSION (0 none, 1 from map C, 2 none on this material, 3 from the third channel of map B, where gpu_scene packs it: the normal's z
-// follows from x and y), COVERAGE (1: blended surfaces cover the share of a pixel that map C and the vertex colours say; 0 where it is not defined).
+// Definitions: GENERAL, ALPHA_TEST, OCCLUSION (0 none, 1 from map C, 2 none on this material, 3 from the third channel of map B), PACKED (1: that channel is an
+// occlusion map's, read or not: the normal's z follows from x and y), COVERAGE (1: blended surfaces cover the share of a pixel that map C and the vertex colours say; 0 where it is not defined).
 #ifndef COVERAGE
 #define COVERAGE 0
 #endif
@@ -73,7 +73,7 @@ Fetched fetchMaterial() {
 #endif
   // 128 is zero: 8-bit normal maps hold flat as (128, 128, 255).
   vec3 mapped = b.rgb * (255.0 / 127.0) - vec3(128.0 / 127.0);
-#if OCCLUSION == 3
+#if PACKED
   mapped.z = sqrt(max(1.0 - mapped.x * mapped.x - mapped.y * mapped.y, 0.0));
 #endif
   f.roughness = clamp(roughness, BURNISH_ROUGHNESS_MIN, 1.0);

@@ -3,6 +3,7 @@
 
 #include <map>
 
+#include "render/workshop.h"
 #include "zero_cost/account.h"
 
 using namespace burnish;
@@ -98,6 +99,24 @@ TEST_CASE("zero cost: a picture of the surroundings is filtered for lighting and
     };
     CHECK(holds("environment cube") == lights);
     CHECK(holds("environment picture") == !lights);
+  }
+}
+
+// Normal maps carry an occlusion map in their third channel, whether the frame takes occlusion or not.
+TEST_CASE("zero cost: an occlusion map that nothing takes changes no normal", "[zero_cost]") {
+  for (const Path path : {Path::Deferred, Path::Forward}) {
+    CAPTURE(int(path));
+    Subject subject = stand();
+    subject.quality.path = path;
+    Material& ball = *subject.scene.materials.edit(subject.scene.materials.at(1));
+    // Flat, which is exact with z read and with z computed.
+    ball.mapB = subject.scene.textures.add(painted(MapKind::NormalRoughness, 4, [](float, float) { return vec4(128 / 255.0f, 128 / 255.0f, 1, 1); }));
+    const Observation without = observe(subject);
+    ball.mapC = subject.scene.textures.add(painted(MapKind::Occlusion, 4, [](float u, float) { return vec4(u, 1, 0, 0); }));
+    subject.scene.materials.edit(subject.scene.materials.at(1));
+    const Observation with = observe(subject);
+    CHECK(!with.plan.on("baked_occlusion"));
+    CHECK(largestDifference(with.picture, without.picture) <= 1);
   }
 }
 
