@@ -4,7 +4,7 @@
 #define LUMA_GREEN R(0.7152)
 #define LUMA_BLUE R(0.0722)
 // Light of display white is 1 here; past it the curve below ends at 2. 1/65504: what is left of it where half floats end.
-#define COMPRESSED_END R(1.52662e-5)
+#define COMPRESSED_END (R(1.0) / R(65504.0))
 
 FN real lumaOf(vec3 c) { return LUMA_RED * c.x + LUMA_GREEN * c.y + LUMA_BLUE * c.z; }
 
@@ -28,9 +28,9 @@ FN vec3 rgbFromLuma(vec3 y) { return vec3(y.x + y.y - y.z, y.x + y.z, y.x - y.y 
 FN vec3 clippedToward(vec3 middle, vec3 extent, vec3 old) {
   vec3 d = old - middle;
   real k = R(1.0);
-  if (abs(d.x) > extent.x) k = min(k, extent.x / abs(d.x));
-  if (abs(d.y) > extent.y) k = min(k, extent.y / abs(d.y));
-  if (abs(d.z) > extent.z) k = min(k, extent.z / abs(d.z));
+  if (abs(d.x) > extent.x) k = min(k, extent.x / abs(d.x));  // model: the box's side
+  if (abs(d.y) > extent.y) k = min(k, extent.y / abs(d.y));  // model: the box's side
+  if (abs(d.z) > extent.z) k = min(k, extent.z / abs(d.z));  // model: the box's side
   return middle + d * k;
 }
 
