@@ -173,6 +173,7 @@ void fillSun(FrameData& d, const FrameContext& c) {
 
 Result<void> uploadFrameData(FrameContext& c, float displayExposure) {
   FrameData d{};
+  d.viewProjection = glm::mat4(c.view.viewProjection);
   fillRays(d, c.view);
   const bool wide = c.plan.target("light") && c.plan.target("light")->format == "RGBA32F";
   d.exposure = vec4(c.preExposure, 1 / c.preExposure, displayExposure / c.preExposure, wide ? 3e38f : 65000.0f);

@@ -153,10 +153,11 @@ void TileCuller::markDetail(const scene::ViewFrame& view, const DetailBox& box) 
   }
   if (!view.orthographic && high.z < near_) return;
   const bool whole = !view.orthographic && low.z < near_ * 1.01;
-  const auto tileAt = [](double image, double tan, double pixels, int tiles) { return int(std::clamp(std::floor((image / tan + 1) * 0.5 * pixels / TILE_SIZE), -1.0, double(tiles))); };
+  // A pixel more to either side: views that are sampled over time are shifted within one.
+  const auto tileAt = [](double image, double tan, double pixels, int tiles, double more) { return int(std::clamp(std::floor(((image / tan + 1) * 0.5 * pixels + more) / TILE_SIZE), -1.0, double(tiles))); };
   const double w = view.viewport.z, h = view.viewport.w;
-  const int tx0 = whole ? 0 : std::max(tileAt(imageLow.x, view.tanX, w, columns_), 0), tx1 = whole ? columns_ - 1 : std::min(tileAt(imageHigh.x, view.tanX, w, columns_), columns_ - 1);
-  const int ty0 = whole ? 0 : std::max(tileAt(imageLow.y, view.tanY, h, rows_), 0), ty1 = whole ? rows_ - 1 : std::min(tileAt(imageHigh.y, view.tanY, h, rows_), rows_ - 1);
+  const int tx0 = whole ? 0 : std::max(tileAt(imageLow.x, view.tanX, w, columns_, -1), 0), tx1 = whole ? columns_ - 1 : std::min(tileAt(imageHigh.x, view.tanX, w, columns_, 1), columns_ - 1);
+  const int ty0 = whole ? 0 : std::max(tileAt(imageLow.y, view.tanY, h, rows_, -1), 0), ty1 = whole ? rows_ - 1 : std::min(tileAt(imageHigh.y, view.tanY, h, rows_, 1), rows_ - 1);
   const auto meets = [&](const Box& b) { return double(b.maxZ) >= low.z && double(b.minZ) <= high.z; };
   for (int ty = ty0; ty <= ty1; ++ty)
     for (int tx = tx0; tx <= tx1; ++tx) {

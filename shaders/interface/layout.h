@@ -59,6 +59,7 @@
 #include "interface/limits.h"
 
 struct FrameData {
+  mat4 viewProjection;   // camera-relative world to clip, depth reversed in [0,1]
   vec4 rayOrigin;        // perspective: direction through pixel (0,0), scaled so that its depth is 1; orthographic: origin on the eye's plane. xyz camera-relative world
   vec4 rayX;             // added per pixel to the right
   vec4 rayY;             // added per pixel upward

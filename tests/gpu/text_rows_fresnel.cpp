@@ -104,9 +104,9 @@ void addDiffuse(std::vector<Row>& rows) {
     rows.push_back(albedo);
     Row whole{rungName("compensation", compensation), {rungName("compensation", compensation)}, &kShading,
               TEXT(vec4(vec3(shadeCase(a, b, c, d, e, vec2(f), rungs)), environmentScattered(tableCase(a, c, d, e, f), rungs).x)), albedo.rungs, 0,
-              {" of the peak", [](const Row& r, const Case& in, const glm::dvec4&, int k) { return k == 3 ? 1 : shadeCeiling(r.rungs, seen(in, false), in, false); }}, 5e-4,
+              {" of the peak", [](const Row& r, const Case& in, const glm::dvec4&, int k) { return k == 3 ? 1 : shadeCeiling(r.rungs, seen(in, false), in); }}, 5e-4,
               [](const Row& r, const Case& in) {
-                const double most = shadeCeiling(r.rungs, seen(in, false), in, true);
+                const double most = shadeCeiling(r.rungs, seen(in, false), in);
                 return Ranges{{{0, most}, {0, most}, {0, most}, {0, 1}}};
               }};
     rows.push_back(whole);

@@ -252,7 +252,10 @@ TEST_CASE("a plan without fog has nothing of it; fog too thin or too near is off
   CHECK(fog(with).reason == "the scene's fog");
   CHECK(defines(with, "FOG 1"));
   CHECK(fog(with).targets.size() == 1);  // the light buffer, which others call for too
-  CHECK(with.passes.size() == without.passes.size() + 1);  // the background, for the fog before it
+  // The background, for the fog before it, takes the place of clearing the light buffer.
+  CHECK(with.passes.size() == without.passes.size());
+  CHECK((without.pass("light_clear") && !without.pass("background")));
+  CHECK((with.pass("background") && !with.pass("light_clear")));
   // Nothing is farther than nine metres; the way to the background is, but no light comes from there.
   w.scene.environment = {};
   for (std::uint32_t i = 0; i < 2; ++i) w.scene.lights.remove(w.scene.lights.at(i));

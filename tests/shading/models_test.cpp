@@ -132,7 +132,7 @@ Frame randomFrame(std::mt19937_64& random, double alpha, double strength) {
 
 double evaluate(const shading::Rungs& k, const Frame& f, double strength) {
   f64::Surface m = f64::makeSurface(f.n, f.v, dvec3(1), 1, f.alpha);
-  if (strength > 0) f64::setTangent(m, f.t * 3.0 + f.n, strength);
+  if (strength > 0 && hasTwoWidths(k)) f64::setTangent(m, f.t * 3.0 + f.n, strength);
   return f64::specularRung(m, f64::anglesOf(m, f.l), k);
 }
 

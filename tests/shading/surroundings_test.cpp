@@ -98,6 +98,7 @@ TEST_CASE("roughness is squared once: every consumer of alpha") {
   f64::setTangent(m, dvec3(1, 0, 0), 0.5);
   CHECK(m.alphaX == Approx(alpha + (1 - alpha) * 0.25));  // KHR_materials_anisotropy
   CHECK(m.alphaY == alpha);
+  m = surface(alpha);
   // Oren and Nayar's sigma is alpha over root 2; A and B by hand at n·l = n·v = 0.5 in one plane (cos φ = 1): A + B
   // sin² θ / cos θ.
   const double s2 = alpha * alpha / 2, a = 1 - 0.5 * s2 / (s2 + 0.33), b = 0.45 * s2 / (s2 + 0.09);

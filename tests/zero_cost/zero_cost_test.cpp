@@ -112,8 +112,8 @@ TEST_CASE("zero cost: an occlusion map that nothing takes changes no normal", "[
     // Flat, which is exact with z read and with z computed.
     ball.mapB = subject.scene.textures.add(painted(MapKind::NormalRoughness, 4, [](float, float) { return vec4(128 / 255.0f, 128 / 255.0f, 1, 1); }));
     const Observation without = observe(subject);
-    ball.mapC = subject.scene.textures.add(painted(MapKind::Occlusion, 4, [](float u, float) { return vec4(u, 1, 0, 0); }));
-    subject.scene.materials.edit(subject.scene.materials.at(1));
+    const Id<Texture> map = subject.scene.textures.add(painted(MapKind::Occlusion, 4, [](float u, float) { return vec4(u, 1, 0, 0); }));
+    subject.scene.materials.edit(subject.scene.materials.at(1))->mapC = map;
     const Observation with = observe(subject);
     CHECK(!with.plan.on("baked_occlusion"));
     CHECK(largestDifference(with.picture, without.picture) <= 1);
