@@ -99,11 +99,11 @@ vec3 mirrored(Surface m) {
     float total = 0.0;
     for (int i = 0; i < BRUSHED_TAPS; ++i) {
       vec3 l = brushedDirection(m, brushedNode(i));
-      float weight = notNegative(dot(m.n, l));
+      float weight = max(dot(m.n, l), BURNISH_GUARD_NOV);
       sum += prefiltered(l, brushedAlpha(m)) * weight;
       total += weight;
     }
-    return sum / max(total, BURNISH_GUARD_NOV);
+    return sum / total;
   }
 #endif
   return prefiltered(m.n * (2.0 * m.nov) - m.v, m.alpha);

@@ -38,9 +38,13 @@ constexpr TableRow kTables[] = {
     {"picture behind glass", "scene_color"},
     {"transparent layer", "peel_a"},
     {"host depth", "host depth"},
+    {"shadow_maps layer ", "shadow_maps"},
+    {"shadow data", "shadow_maps"},
+    {"shadows, ", "shadow_maps"},
+    {"casters", "shadow_maps"},
 };
 /// Written anew in every frame, at most once a view.
-constexpr std::string_view kStreams[] = {"frame data", "draw data", "lights", "light lists", "tiles"};
+constexpr std::string_view kStreams[] = {"frame data", "draw data", "lights", "light lists", "tiles", "shadow data"};
 /// Calls that wait for the GPU or ask it, and where a plan says that they may be.
 struct AskRow {
   std::string_view pass, call;
