@@ -68,7 +68,7 @@ TEST_CASE("deferred and forward have the same shadows", "[shadow]") {
     const double apart = differing(deferred, forward, 0.02), changed = differing(without, forward, 0.02);
     std::cout << fmt::format("  rung {}: {:.3f} % of pixels differ by more than 2 % between the paths; shadows change {:.1f} %\n", int(rung), 100 * apart, 100 * changed);
     CHECK(apart < 0.01);
-    CHECK(changed > 0.1);
+    CHECK(changed > 0.05);  // there is something to compare
   }
 }
 
@@ -134,7 +134,7 @@ TEST_CASE("a deformed caster out of view casts the shadow of its pose, again whe
   l.castsShadow = true;
   addLight(arm.scene, l, {0, 0, 0}, {0, -0.45, -1});
   // The floor alone, in front of which the arm stands.
-  const View view = lookAt({0, 2.6, 1.2}, {0, 0, -3}, {0, 1, 0}, 0.7f);
+  const View view = lookAt({0, 2.6, -0.8}, {0, 0, -3}, {0, 1, 0}, 0.9f);
   Stage stage;
   const auto compare = [&] {
     const Picture bent = stage.linear(arm.scene, view, kSize);
