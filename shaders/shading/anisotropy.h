@@ -36,5 +36,6 @@ FN real alphaToward(real x, real y, real alphaX, real alphaY) {
   real hy = heldLarge(y);
   real qx = hx * hx;
   real qy = hy * hy;
-  return sqrt((qx * ax * ax + qy * ay * ay + BURNISH_GUARD_LENGTH * ax * ay) / (qx + qy + BURNISH_GUARD_LENGTH));
+  real alpha = sqrt((qx * ax * ax + qy * ay * ay + BURNISH_GUARD_LENGTH * ax * ay) / (qx + qy + BURNISH_GUARD_LENGTH));
+  return min(max(alpha, min(ax, ay)), max(ax, ay));  // model: between the two
 }

@@ -64,11 +64,10 @@ inline double twoWidthsCeiling(const shading::Rungs& k, const Seen& s) {
   }
 }
 
-/// At most specularRung.
-inline double specularCeiling(const shading::Rungs& k, const Seen& s) {
+/// At most specularRung of a round lobe.
+inline double roundCeiling(const shading::Rungs& k, const Seen& s) {
   namespace f64 = shading::f64;
   const double p = f64::powerFromAlpha(s.held), q = p / 4;
-  if (k.anisotropic != 0 && hasTwoWidths(k)) return twoWidthsCeiling(k, s);
   switch (k.specular) {
     case SPECULAR_PHONG:
     case SPECULAR_BLINN_PHONG: return 1;
@@ -84,6 +83,14 @@ inline double specularCeiling(const shading::Rungs& k, const Seen& s) {
   }
   if (k.geometry == GEOMETRY_VOID && k.distribution == DISTRIBUTION_BLINN_PHONG) return f64::normalizationRung(p, k.normalization) * s.nol;
   return peakOf(k.distribution, s.held) * visibilityCeiling(s, k.geometry, k.distribution);
+}
+
+/// At most specularRung. A tangent that is none to float (its part across the normal underflows) leaves the lobe round and narrow.
+inline double specularCeiling(const shading::Rungs& k, const Seen& s) {
+  if (k.anisotropic == 0 || !hasTwoWidths(k)) return roundCeiling(k, s);
+  Seen narrow = s;
+  narrow.held = std::max(s.m.alphaY, 1e-6);
+  return std::max(roundCeiling(k, narrow), twoWidthsCeiling(k, s));
 }
 
 /// At most the rough diffuse functions, per albedo, for cosines l and v. 0.45, 0.125 and 0.17 are the paper's; B <= 0.45, its denominators are held above 1e-4.
