@@ -149,14 +149,15 @@ class Samples(unittest.TestCase):
         self.assertNotIn("fog", scene.extras)
         self.assertEqual(scene.cameras(), {"hero", "close", "far"})
         self.assertTrue({"station_wheel", "cruiser", "fighter_0"} <= scene.animated())
-        there = self.clean(scene)
-        # The same picture at the origin: 1.2e6 m away nothing trembles.
+        self.clean(scene)
+        # The same picture at the origin: 1.2e6 m away nothing trembles. Without shadows: the texels of cascades lie on a grid of the world, which moves under the scene.
+        _, there = self.render(scene, "hero", "--set", "shadow=none")
         with tempfile.TemporaryDirectory(prefix="burnish-samples-") as folder:
             shutil.copytree(scene.file.parent, pathlib.Path(folder) / "space")
             scene.file = pathlib.Path(folder) / "space/space.gltf"
             scene.root_of(0)["translation"] = [0, 0, 0]
             scene.file.write_text(json.dumps(scene.doc))
-            _, here = self.render(scene, "hero")
+            _, here = self.render(scene, "hero", "--set", "shadow=none")
         off = np.abs(here - there).max(-1)
         self.assertLess(np.mean(off > 1), 0.002)
 
