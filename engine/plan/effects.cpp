@@ -81,6 +81,7 @@ Verdict bakedOcclusion(const Situation& s) {
   return provided(provided(called, s.final() || s.options.debugView == DebugView::Occlusion, kNotShown), holdsBack(s), kHoldsNothingBack);
 }
 Verdict sunDisc(const Situation& s) {
+  if (s.scene.environment.sun && !s.scene.environment.background) return {false, "the environment is not shown as background"};
   const bool scene = s.scene.environment.sun.has_value();
   return provided({s.facts.has(Call::SunDisc), scene ? s.facts.has(Call::SunDisc) ? s.facts.why[std::size_t(Call::SunDisc)] : "out of view: the environment's sun" : "an environment with a sun would call for it"},
                   s.on("background"), "there is no background to show it in");

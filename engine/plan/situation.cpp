@@ -163,7 +163,7 @@ Facts factsOf(const Scene& scene, std::span<const Seen> views, const Quality& qu
     if (!view.moved.empty()) facts.call(Call::Moving, "instance", view.instances[view.moved.front().visible].instance->name, " moves", int(view.moved.size()));
   }
   addEnvironment(scene.environment, facts);
-  if (const auto& sun = scene.environment.sun)
+  if (const auto& sun = scene.environment.sun; sun && scene.environment.background)
     if (options.wholeScene || std::any_of(views.begin(), views.end(), [&](const Seen& v) { return sees(v.frame, *sun); })) facts.why[std::size_t(Call::SunDisc)] = "the environment's sun";
   return facts;
 }
