@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "render/painted.h"
+#include "render/reduced.h"
 
 using namespace burnish;
 using namespace burnish::test;
@@ -27,19 +28,6 @@ Scene slanted(double degrees, float bright, float dark) {
   m.albedo = vec3(dark);
   place(scene, quad({0, 0, -0.5f}, {4, 0, 0}, {0, 4, 0}), m);
   return scene;
-}
-
-/// Averages n x n pixels of linear light.
-Picture reduced(const Picture& p, int n) {
-  Picture out{makeImage(p.image.width / n, p.image.height / n, 4, PixelType::F32), {}};
-  for (int y = 0; y < out.image.height; ++y)
-    for (int x = 0; x < out.image.width; ++x) {
-      dvec3 sum(0);
-      for (int j = 0; j < n; ++j)
-        for (int i = 0; i < n; ++i) sum += p.at(x * n + i, y * n + j);
-      for (int c = 0; c < 3; ++c) out.image.f32()[(y * out.image.width + x) * 4 + c] = float(sum[c] / (n * n));
-    }
-  return out;
 }
 
 double rms(const Picture& a, const Picture& b) {

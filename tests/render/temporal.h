@@ -2,6 +2,7 @@
 #pragma once
 #include "plan/temporal.h"
 #include "render/painted.h"
+#include "render/reduced.h"
 
 namespace burnish::test {
 
@@ -9,19 +10,6 @@ inline Quality temporal(bool on = true) {
   Quality q = plainQuality();
   q.antialiasing = on ? Antialiasing::Temporal : Antialiasing::None;
   return q;
-}
-
-/// Averages n x n pixels of linear light.
-inline Picture reduced(const Picture& p, int n) {
-  Picture out{makeImage(p.image.width / n, p.image.height / n, 4, PixelType::F32), {}};
-  for (int y = 0; y < out.image.height; ++y)
-    for (int x = 0; x < out.image.width; ++x) {
-      dvec3 sum(0);
-      for (int j = 0; j < n; ++j)
-        for (int i = 0; i < n; ++i) sum += p.at(x * n + i, y * n + j);
-      for (int c = 0; c < 3; ++c) out.image.f32()[(y * out.image.width + x) * 4 + c] = float(sum[c] / (n * n));
-    }
-  return out;
 }
 
 /// Root mean square over those pixels that `counts` takes.
