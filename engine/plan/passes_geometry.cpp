@@ -59,7 +59,7 @@ void addForward(Builder& b) {
   PassPlan& pass = b.pass("forward", {"forward_reference", "fog", "anisotropy", "rough_diffuse"}, {"meshes", "materials"}, {"light", "depth"});
   if (s.on("local_lights")) pass.reads.emplace_back("lights");
   const bool environment = s.on("environment_lighting");
-  if (needsCube(s.quality, environment)) pass.reads.push_back("environment cube");
+  if (needsCube(s.quality, environment)) pass.reads.emplace_back("environment cube");
   if (needsDfg(s.quality, environment)) pass.reads.push_back("dfg");
   if (s.shadows().rung != Shadow::None) pass.reads.push_back("shadow_maps");
   for (bool orthographic : s.projections())

@@ -64,7 +64,7 @@ void addLighting(Builder& b) {
     for (const char* effect : {"anisotropy", "rough_diffuse"})
       if (s.on(effect)) pass.effects.emplace_back(effect);
   }
-  if (needsCube(s.quality, environment)) pass.reads.push_back("environment cube");
+  if (needsCube(s.quality, environment)) pass.reads.emplace_back("environment cube");
   if (needsDfg(s.quality, environment)) pass.reads.push_back("dfg");
   if (s.shadows().rung != Shadow::None) pass.reads.push_back("shadow_maps");
   for (bool orthographic : s.projections()) {

@@ -18,7 +18,7 @@ void addTransparent(Builder& b) {
   const bool environment = s.on("environment_lighting"), glass = s.on("glass");
   PassPlan& pass = b.pass("transparent", {"alpha_blend", "glass", "fog", "anisotropy", "rough_diffuse"}, {"meshes", "materials", "depth"}, {"light"});
   if (s.on("local_lights")) pass.reads.emplace_back("lights");
-  if (needsCube(s.quality, environment)) pass.reads.push_back("environment cube");
+  if (needsCube(s.quality, environment)) pass.reads.emplace_back("environment cube");
   if (needsDfg(s.quality, environment)) pass.reads.push_back("dfg");
   if (s.shadows().rung != Shadow::None) pass.reads.push_back("shadow_maps");
   if (glass && s.facts.refracts) {

@@ -259,7 +259,7 @@ double apart(const Picture& a, const Picture& b) {
 
 }  // namespace
 
-TEST_CASE("the surroundings in brushed metal: prefiltered lookups along the tangent, against 256 samples of the lobe") {
+TEST_CASE("the surroundings in brushed metal: prefiltered lookups along the tangent, against 256 samples of the lobe", "[sweep]") {
   Stage stage;
   for (const auto& [roughness, strength] : {std::pair(0.2f, 0.6f), std::pair(0.35f, 0.5f), std::pair(0.35f, 0.9f), std::pair(0.5f, 0.8f)}) {
     Quality sampled, dfg;

@@ -143,7 +143,7 @@ TEST_CASE("a white room: fog that absorbs nothing, between walls and sky that sh
   }
 }
 
-TEST_CASE("with fog, forward and deferred agree, opaque, emissive and seen through") {
+TEST_CASE("with fog, forward and deferred agree, opaque, emissive and seen through", "[sweep]") {
   Stage stage;
   Workshop w;
   w.scene.fog = fogOf(0.12f, 0.5f, -0.5f);

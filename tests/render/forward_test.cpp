@@ -114,7 +114,7 @@ void checkPaths(Stage& stage, const Workshop& w, const View& view, glm::ivec2 si
 
 }  // namespace
 
-TEST_CASE("forward and deferred agree: every material field") {
+TEST_CASE("forward and deferred agree: every material field", "[sweep]") {
   Stage stage;
   Workshop w;
   for (const Field& field : fieldsOf(w)) {
@@ -166,7 +166,7 @@ View orthographic(View view) {
 
 }  // namespace
 
-TEST_CASE("forward and deferred agree: presets, both projections") {
+TEST_CASE("forward and deferred agree: presets, both projections", "[sweep]") {
   Stage stage;
   Workshop w;
   addVariety(w);
@@ -200,7 +200,7 @@ TEST_CASE("forward and deferred agree: mirrored, sheared and flattened instances
 
 // Terms meet each other in ever new pairs: from row to row a term steps on by one, two or three rungs. A single pixel may be far off: on a silhouette, where some geometry terms
 // rise steeply as n·v goes to 0, and at n·l = 0, where the models without a cosine end with a step.
-TEST_CASE("forward and deferred agree: a sample of rungs") {
+TEST_CASE("forward and deferred agree: a sample of rungs", "[sweep]") {
   Stage stage;
   Workshop w;
   addVariety(w);

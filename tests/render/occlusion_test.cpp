@@ -176,7 +176,7 @@ TEST_CASE("screen occlusion: the integral that it is held against", "[occlusion]
   CHECK(visibility({0, 0, 0.3}, {0, 1, 0}, 1, Corner(2).hit()) == Approx(1 - fading).margin(0.005));
 }
 
-TEST_CASE("screen occlusion: corners of two and three planes", "[occlusion]") {
+TEST_CASE("screen occlusion: corners of two and three planes", "[occlusion][sweep]") {
   Stage stage;
   constexpr glm::ivec2 size{96, 96};
   const double bounds[3][2] = {{0.04, 0.2}, {0.022, 0.13}, {0.013, 0.095}};  // mean, 98 %

@@ -144,7 +144,7 @@ TEST_CASE("the log says which effects went on and off, once, and why") {
   CHECK(lines == std::vector<std::string>{"effect 'emissive' on: material 'lamp' emits"});
 }
 
-TEST_CASE("where nothing needs the light buffer there is none: lighting and background develop in place, within 1/255") {
+TEST_CASE("where nothing needs the light buffer there is none: lighting and background develop in place, within 1/255", "[sweep]") {
   Workshop w;
   w.scene.environment.map = {};
   w.scene.environment.color = vec3(3, 5, 9);

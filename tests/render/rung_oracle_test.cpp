@@ -111,7 +111,7 @@ Material white(double roughness, float substance) {
 
 }  // namespace
 
-TEST_CASE("rungs of one light equal the double oracle on a sphere") {
+TEST_CASE("rungs of one light equal the double oracle on a sphere", "[sweep]") {
   Stage stage;
   const OnCodes surface;
   Scene scene;

@@ -174,7 +174,7 @@ TEST_CASE("shadows are called for by a light that casts them and reaches somethi
   for (const ProgramPlan& p : none.programs) CHECK(p.name.find("shadow") == std::string::npos);
 }
 
-TEST_CASE("limits of shadows are said: too many maps, too many suns, a distance, sizes that cannot be, glass", "[shadow]") {
+TEST_CASE("limits of shadows are said: too many maps, too many suns, a distance, sizes that cannot be, glass", "[shadow][sweep]") {
   Lit s;
   s.yard.scene.lights.edit(s.point)->name = "bulb";
   Quality few;

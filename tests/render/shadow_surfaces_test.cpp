@@ -57,7 +57,7 @@ Quality on(Path path, Shadow rung) {
 
 }  // namespace
 
-TEST_CASE("deferred and forward have the same shadows", "[shadow]") {
+TEST_CASE("deferred and forward have the same shadows", "[shadow][sweep]") {
   Stage stage;
   Yard yard;
   addLights(yard.scene);

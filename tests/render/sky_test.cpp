@@ -100,7 +100,7 @@ TEST_CASE("the disc is planned where a view sees it, and nowhere else") {
   parallel.orthographic = true;
   CHECK(!effect(parallel).on);
   scene.environment.background = false;
-  CHECK(effect(to).reason == "there is no background to show it in");
+  CHECK(effect(to).reason == "the environment is not shown as background");
   scene.environment.sun.reset();
   CHECK(effect(to).reason == "an environment with a sun would call for it");
 }

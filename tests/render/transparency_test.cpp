@@ -28,7 +28,7 @@ double largest(const dvec3& v) {
 
 }  // namespace
 
-TEST_CASE("a blended surface with opacity 1 is the opaque surface, for every light and the surroundings", "[transparency]") {
+TEST_CASE("a blended surface with opacity 1 is the opaque surface, for every light and the surroundings", "[transparency][sweep]") {
   Stage stage;
   struct Lit {
     const char* name;

@@ -217,13 +217,13 @@ TEST_CASE("fog of a scene: its numbers, and one clear error for what is none", "
   CHECK(fog.albedo == glm::vec3(0.5f, 0.25f, 1));
   CHECK(r.warned("'colour'"));
   CHECK_FALSE(readJson({{"scenes", {Json::object()}}}).asset->fog);
-  for (const auto& [fog, place] : std::vector<std::pair<Json, std::string>>{{{{"density", "thick"}}, "density"},
-                                                                            {{{"density", -1}}, "density"},
-                                                                            {{{"falloff", 1}}, "density"},
-                                                                            {{{"density", 1}, {"albedo", {1, 2, 1}}}, "albedo"},
-                                                                            {{{"density", 1}, {"anisotropy", 1}}, "anisotropy"}}) {
-    const Reading bad = withFog(fog);
-    CAPTURE(fog.dump());
+  for (const auto& [wrong, place] : std::vector<std::pair<Json, std::string>>{{{{"density", "thick"}}, "density"},
+                                                                              {{{"density", -1}}, "density"},
+                                                                              {{{"falloff", 1}}, "density"},
+                                                                              {{{"density", 1}, {"albedo", {1, 2, 1}}}, "albedo"},
+                                                                              {{{"density", 1}, {"anisotropy", 1}}, "anisotropy"}}) {
+    const Reading bad = withFog(wrong);
+    CAPTURE(wrong.dump());
     CHECK_FALSE(bad.asset);
     CHECK(bad.message().find("/scenes/0/extras/burnish/fog") != std::string::npos);
     CHECK(bad.message().find(place) != std::string::npos);
