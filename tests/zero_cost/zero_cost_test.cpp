@@ -120,7 +120,7 @@ TEST_CASE("zero cost: an occlusion map that nothing takes changes no normal", "[
   }
 }
 
-TEST_CASE("zero cost: off is lossless", "[zero_cost]") {
+TEST_CASE("zero cost: off is lossless", "[zero_cost][sweep]") {
   for (const EffectInfo& effect : effectList()) {
     if (effect.calledBy != CalledBy::Scene || !chosen(effect.name)) continue;
     const EffectCase& row = *caseOf(effect.name);
