@@ -52,6 +52,14 @@ struct AskRow {
 constexpr AskRow kMayAsk[] = {
     {"tiles", "GetTextureSubImage"}, {"nonfinite_count", "GetTextureSubImage"}, {"transparent", "BeginQuery"}, {"transparent", "EndQuery"}, {"transparent", "GetQueryObject"}, {"deform", "MemoryBarrier"},
 };
+/// What a pass may clear, as the plan names it: what is drawn over everywhere needs no clear, what is not needs one.
+struct ClearRow {
+  std::string_view pass, table, effect = {};  ///< only while this one is on
+};
+constexpr ClearRow kMayClear[] = {
+    {"gbuffer", "depth"}, {"gbuffer", "gbuffer_b", "host_depth_in"}, {"gbuffer", "gbuffer_d"}, {"forward", "light"}, {"forward", "depth"}, {"light_clear", "light"}, {"shadow_maps", "shadow_maps"},
+    {"transparent", "peel_a"}, {"transparent", "peel_b"}, {"motion_vectors", "velocity"},
+};
 constexpr std::string_view kAsking[] = {"Get", "Is", "Finish", "Flush", "FenceSync", "ClientWait", "WaitSync", "BeginQuery", "EndQuery", "QueryCounter", "Read", "Map", "MemoryBarrier", "TextureBarrier", "Invalidate"};
 
 bool lists(const std::vector<std::string>& names, std::string_view name) { return std::find(names.begin(), names.end(), name) != names.end(); }
@@ -136,11 +144,18 @@ class Account {
       // A depth buffer that is only tested against is attached all the same.
       const bool tested = w.kind == Work::Kind::Draw && lists(pass->reads, name);
       if (!lists(pass->writes, name) && !tested) stray(fmt::format("{} ({}) in '{}' writes '{}', which the plan does not say", workName(w.kind), kFunctionNames[std::size_t(w.function)], w.group, name));
+      if (w.kind == Work::Kind::Clear) judgeClear(w, t, name);
     }
     for (const Touched& t : w.reads) {
       const std::string name = nameOf(t);
       if (!lists(pass->reads, name) && !lists(pass->writes, name)) stray(fmt::format("{} in '{}' samples '{}', which the plan does not say", workName(w.kind), w.group, name));
     }
+  }
+  // Peeling clears its layers' depth once for each layer that it finds; everything else is cleared once.
+  void judgeClear(const Work& w, const Touched& t, const std::string& name) {
+    const bool may = std::any_of(std::begin(kMayClear), std::end(kMayClear), [&](const ClearRow& row) { return w.group == row.pass && name == row.table && (row.effect.empty() || plan_.on(row.effect)); });
+    if (!may) return stray(fmt::format("'{}' is cleared in '{}', which draws all of it or none", name, w.group));
+    if (++clears_[{w.framebuffer, t.id}] > 1 && w.group != "transparent") stray(fmt::format("'{}' is cleared {} times in '{}'", name, clears_[{w.framebuffer, t.id}], w.group));
   }
   void judgeUpload(const Work& w) {
     if (!steady_) return;
@@ -238,6 +253,7 @@ class Account {
   std::set<std::string> tables_, sceneTextures_;
   std::vector<std::string> strays_;
   std::map<GLuint, int> uploads_;
+  std::map<std::pair<GLuint, GLuint>, int> clears_;  // by framebuffer and texture
   std::map<Slot, std::size_t> pending_;
   std::uint64_t program_ = 0, array_ = 0;
 };

@@ -33,6 +33,7 @@ constexpr Plant kPlants[] = {
     {"clear of what is bound", At::Between, true, [](Recorder& r) { SHIM(PFNGLCLEARPROC, Clear)(GL_COLOR_BUFFER_BIT); }},
     {"clear of a target between passes", At::Between, true, [](Recorder& r) { SHIM(PFNGLCLEARNAMEDFRAMEBUFFERFVPROC, ClearNamedFramebufferfv)(some(r, ObjectKind::Framebuffer, "light"), GL_COLOR, 0, kBlack); }},
     {"clear of another pass's target", At::Inside, true, [](Recorder& r) { SHIM(PFNGLCLEARNAMEDFRAMEBUFFERFVPROC, ClearNamedFramebufferfv)(some(r, ObjectKind::Framebuffer, "light"), GL_COLOR, 0, kBlack); }},
+    {"clear of what a pass draws all of", At::Inside, true, [](Recorder& r) { SHIM(PFNGLCLEARPROC, Clear)(GL_COLOR_BUFFER_BIT); }},
     {"draw between passes", At::Between, true, [](Recorder& r) { SHIM(PFNGLDRAWARRAYSPROC, DrawArrays)(GL_TRIANGLES, 0, 3); }},
     {"draw once more in a pass", At::Inside, false, [](Recorder& r) { SHIM(PFNGLDRAWARRAYSPROC, DrawArrays)(GL_TRIANGLES, 0, 0); }},
     {"texture bound", At::Inside, true, [](Recorder& r) { SHIM(PFNGLBINDTEXTUREUNITPROC, BindTextureUnit)(12, some(r, ObjectKind::Texture)); }},

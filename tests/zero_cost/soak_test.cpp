@@ -3,6 +3,7 @@
 
 #include <deque>
 #include <fstream>
+#include <glm/gtc/matrix_transform.hpp>
 #include <unistd.h>
 
 #include "zero_cost/account.h"
@@ -29,9 +30,16 @@ struct Life {
   Subject subject = stand();
   std::deque<Id<Instance>> bodies;
   std::deque<Id<Light>> lamps;
-  Id<Light> moving;
+  Id<Light> moving, sun;
+  Id<Instance> ball;
 
-  Life() { moving = addLight(subject.scene, light(LightKind::Point, {1, 0.8f, 0.6f}, 10, 5), {1, 1, 1}); }
+  Life() {
+    Scene& s = subject.scene;
+    s.lights.each([&](Id<Light> id, const Light&) { sun = id; });
+    ball = s.instances.at(1);
+    moving = addLight(s, light(LightKind::Point, {1, 0.8f, 0.6f}, 10, 5), {1, 1, 1});
+    s.lights.edit(moving)->castsShadow = true;
+  }
 
   /// A new body with a mesh, a material and (some) a texture of its own.
   void addBody(int frame) {
@@ -64,12 +72,18 @@ struct Life {
     const int at = frame % kPeriod;
     Quality& q = subject.quality;
     subject.scene.nodes.edit(subject.scene.lights.get(moving)->node)->local = translation({std::sin(at * 0.1) * 2, 1, 1});
+    // Shadows that move with their lights, with what stands in them, and not at all.
+    Scene& s = subject.scene;
+    s.lights.edit(sun)->castsShadow = at >= 10 && at < 70;
+    if (at < 30) s.nodes.edit(s.lights.get(sun)->node)->local = glm::rotate(glm::dmat4(1), -1.0 + 0.01 * at, dvec3(1, 0, 0));
+    if (at >= 40) s.nodes.edit(s.instances.get(ball)->node)->local = translation({-0.4 + 0.3 * std::sin(at * 0.2), 0, 0});
+    s.fog.density = at >= 25 && at < 45 ? 0.05f : 0.0f;
     if (at % 5 == 0) addBody(at);
     while (bodies.size() > (at < kPeriod - 1 ? 4u : 0u)) removeBody();
     if (at % 10 == 0) subject.scene.environment.scale = at % 20 == 0 ? 1.0f : 0.0f, subject.scene.environment.color = {0.4f, 0.5f, 0.7f};
     if (at == 50) ++subject.scene.environment.revision;
     q.bloom = at >= 20 && at < 40 ? Bloom::Scatter : Bloom::None;
-    q.antialiasing = at >= 30 && at < 60 ? Antialiasing::Edge : Antialiasing::None;
+    q.antialiasing = at >= 30 && at < 60 ? Antialiasing::Edge : at >= 65 && at < 90 ? Antialiasing::Temporal : Antialiasing::None;
     q.occlusion = at >= 50 && at < 80 ? Occlusion::Screen4 : Occlusion::Baked;
     q.path = at >= 80 && at < 85 ? Path::Forward : Path::Deferred;
     if (at >= 60 && at < 75)
