@@ -1,6 +1,6 @@
 // What each effect costs: on the samples, every effect that the scene calls for against the same frame with that effect taken off the list, and every effect that a setting calls for
 // against the frame without it; written as a page of tables.
-// Usage: effect_costs [-o docs/effects.md] [--samples fps,rts,space] [--camera hero] [--size 1280x720] [--rounds 9] [--unit build/release/bin/unit_pass]
+// Usage: effect_costs [-o docs/effects.md] [--samples fps,fps+64,rts,space] [--camera hero] [--size 1280x720] [--rounds 9] [--unit build/release/bin/unit_pass]
 // Times are CPU milliseconds of the process where the renderer is software (each pass is finished before the next), GPU milliseconds elsewhere. Frames with and without alternate; a figure is
 // the median of the rounds' differences with its quartiles. With --unit the program is run before and after each sample and milliseconds are given in its units too (docs/benchmarks.md).
 #include <burnish/renderer.h>
@@ -20,7 +20,7 @@ using namespace burnish;
 namespace {
 
 struct Arguments {
-  std::string output, samples = "fps,rts,space", camera = "hero", size = "1280x720", rounds = "9", unit;
+  std::string output, samples = "fps,fps+64,rts,space", camera = "hero", size = "1280x720", rounds = "9", unit;
 };
 
 [[noreturn]] void stop(const Error& error) {
@@ -104,7 +104,10 @@ Spread difference(Variant& with, Variant& without, int rounds) {
 struct Setting {
   const char *term, *rung, *without;
 };
-constexpr Setting kSettings[] = {{"occlusion", "screen-4", "baked"}, {"occlusion", "screen-8", "baked"}, {"occlusion", "screen-16", "baked"}, {"shadow", "tap", "none"}, {"shadow", "pcf", "none"}, {"shadow", "pcss", "none"}, {"bloom", "scatter", "none"}, {"antialiasing", "edge", "none"}};
+constexpr Setting kSettings[] = {
+    {"occlusion", "screen-4", "baked"}, {"occlusion", "screen-8", "baked"}, {"occlusion", "screen-16", "baked"}, 
+    {"shadow", "tap", "none"}, {"shadow", "pcf", "none"}, {"shadow", "pcss", "none"}, 
+    {"bloom", "scatter", "none"}, {"antialiasing", "edge", "none"}, {"antialiasing", "temporal", "none"}, {"specular-antialiasing", "geometric", "none"}};
 
 double unitMs(const std::string& program) {
   if (program.empty()) return 0;
@@ -123,10 +126,46 @@ std::string rowOf(const std::string& name, const Spread& s, double unit, glm::iv
   return fmt::format("| {} | {:.2f} | {:.2f} to {:.2f} |{} {:.2f} | {} |\n", name, s.median, s.low, s.high, inUnits(s.median, unit), s.median * 1e6 / (double(size.x) * double(size.y)), each);
 }
 
-std::string sampleText(Context& context, const std::string& name, const Arguments& a, glm::ivec2 size, int rounds) {
+/// Adds lamps without shadows until the scene has `wanted` local lights without, spread over the box of those that it has (Halton's sequence), each as bright as its lamps are on average.
+void addLamps(Scene& scene, int wanted) {
+  int have = 0;
+  glm::dvec3 low(1e30), high(-1e30);
+  double intensity = 0;
+  scene.lights.each([&](Id<Light>, const Light& l) {
+    if (l.kind == LightKind::Directional) return;
+    const Node* node = scene.nodes.get(l.node);
+    const glm::dvec3 at = node ? glm::dvec3(node->local[3]) : glm::dvec3(0);
+    low = glm::min(low, at), high = glm::max(high, at);
+    intensity += l.intensity;
+    if (!l.castsShadow) ++have;
+  });
+  if (have == 0) stop({"lamps", "the scene has none to go by", "name a sample with local lights"});
+  const auto halton = [](int i, int base) {
+    double f = 1, sum = 0;
+    for (; i > 0; i /= base) f /= base, sum += f * (i % base);
+    return sum;
+  };
+  intensity /= have;
+  for (int i = 1; have < wanted; ++i, ++have) {
+    Node node;
+    node.local[3] = glm::dvec4(glm::mix(low, high, glm::dvec3(halton(i, 2), halton(i, 3), halton(i, 5))), 1);
+    Light lamp;
+    lamp.kind = LightKind::Point;
+    lamp.intensity = float(intensity);
+    lamp.range = 4;
+    lamp.node = scene.nodes.add(node);
+    scene.lights.add(lamp);
+  }
+}
+
+/// title: a sample, or "fps+64": with lamps added until 64 local lights cast no shadows.
+std::string sampleText(Context& context, const std::string& title, const Arguments& a, glm::ivec2 size, int rounds) {
   Report report;
+  const std::size_t plus = title.find('+');
+  const std::string name = title.substr(0, plus);
   auto scene = loadScene(fmt::format(BURNISH_BINARY_DIR "/share/burnish/samples/{0}/{0}.gltf", name), {}, report);
   if (!scene) stop(scene.error());
+  if (plus != std::string::npos) addLamps(*scene, std::atoi(title.c_str() + plus + 1));
   View view;
   bool found = false;
   scene->cameras.each([&](Id<Camera>, const Camera& camera) {
@@ -146,7 +185,7 @@ std::string sampleText(Context& context, const std::string& name, const Argument
   }
   const double unit = 0.5 * (before + unitMs(a.unit));
   const std::string unitColumn = unit > 0 ? " units |" : "", unitLine = unit > 0 ? "---|" : "";
-  std::string text = fmt::format("\n## {}\n\nThe frame with the default quality, pass by pass{}.\n\n| pass | ms | quartiles |{} called for by |\n|---|---|---|{}---|\n", name,
+  std::string text = fmt::format("\n## {}\n\nThe frame with the default quality, pass by pass{}.\n\n| pass | ms | quartiles |{} called for by |\n|---|---|---|{}---|\n", title,
                                  unit > 0 ? fmt::format(" (a unit here: {:.2f} ms)", unit) : "", unitColumn, unitLine);
   for (const PassPlan& pass : plan.passes) {
     const Spread s = spreadOf(passes[pass.name]);
@@ -159,7 +198,7 @@ std::string sampleText(Context& context, const std::string& name, const Argument
     if (!e.on || e.name == "geometry" || e.name == "tone_mapping") continue;  // without them there is no picture
     Variant without(bench, {}, {e.name});
     text += rowOf(e.name, difference(usual, without, rounds), unit, size, e.objects);
-    std::cerr << fmt::format("effect_costs: {}: {}\n", name, e.name);
+    std::cerr << fmt::format("effect_costs: {}: {}\n", title, e.name);
   }
   for (const auto& [term, rung, otherwise] : kSettings) {
     Quality with, none;
@@ -168,7 +207,7 @@ std::string sampleText(Context& context, const std::string& name, const Argument
     Variant on(bench, with, {}), off(bench, none, {});
     if (on.plan().programs == off.plan().programs && on.plan().targets == off.plan().targets) continue;  // the scene does not call for it
     text += rowOf(fmt::format("{}={}", term, rung), difference(on, off, rounds), unit, size, 0);
-    std::cerr << fmt::format("effect_costs: {}: {}={}\n", name, term, rung);
+    std::cerr << fmt::format("effect_costs: {}: {}={}\n", title, term, rung);
   }
   return text;
 }
@@ -195,7 +234,7 @@ int main(int argc, char** argv) {
   std::string text = fmt::format(
       "# What each effect costs\n\n<!-- Written by effect_costs: do not edit. -->\nPrinted by `build/release/bin/effect_costs -o docs/effects.md{}` (camera `{}`, {}x{}, {} rounds) on {}. {}; medians of the\n"
       "rounds with quartiles, frames with and without an effect alternating. A figure within its own quartiles of 0 is nothing. Compare figures within a sample only.\n"
-      "Objects are the instances or lights in view that call for the effect.\n",
+      "Objects are the instances or lights in view that call for the effect. `fps+64` is the sample with lamps added until 64 cast no shadow, beside its 4 that do.\n",
       a.unit.empty() ? "" : " --unit build/release/bin/unit_pass", a.camera, size.x, size.y, rounds, caps->renderer,
       caps->software ? "CPU milliseconds of the process, each pass finished before the next" : "GPU milliseconds");
   for (std::size_t at = 0; at <= a.samples.size();) {
