@@ -37,16 +37,18 @@ install_packages() {
     die "${0##*/}: apt-get failed (see above); needed: $missing"
 }
 
-# configure PRESET
+# configure PRESET [OPTION...]
 configure() {
   local dir=build/$1
+  local preset=$1
+  shift
   # A copied or moved checkout: CMake refuses a cache made elsewhere.
   if [ -f "$dir/CMakeCache.txt" ] && ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$top" "$dir/CMakeCache.txt"; then
     rm -rf "$dir"
   fi
   [ -f "$dir/build.ninja" ] && return 0
   say "${0##*/}: configuring $dir"
-  locked cmake --preset "$1" >&2 || die "${0##*/}: configuring failed (see above)"
+  locked cmake --preset "$preset" "$@" >&2 || die "${0##*/}: configuring failed (see above)"
 }
 
 # build PRESET TARGET...
