@@ -55,6 +55,16 @@ class Programs {
   std::map<plan::GeometryVariant, const gl::Program*> found_;
 };
 
+// Finds the runs of a large rigid mesh that are in view. Returns whether it is drawn by runs.
+bool findRuns(FrameContext& c, const scene::Frustum& frustum, scene::Batch batch, gpu_scene::PartRuns& runs) {
+  const scene::VisibleInstance& v = c.visible[batch.first];
+  if (batch.count > 1 || v.pose) return false;
+  const gpu_scene::GpuMesh* mesh = gpu_scene::meshOf(c, batch.first);
+  if (!mesh || mesh->parts.empty()) return false;
+  runs.find(frustum, v, mesh->parts, mesh->indexCount, mesh->indexType == GL_UNSIGNED_INT ? 4 : 2);
+  return true;
+}
+
 // Draws every batch that `wants`, with the pass's program for its variant; `before` runs once it is bound.
 template <class Wants, class Before>
 Result<void> drawInstances(FrameContext& c, plan::GeometryPass pass, bool occlusionTarget, Share share, Wants&& wants, Before&& before) {
@@ -63,6 +73,8 @@ Result<void> drawInstances(FrameContext& c, plan::GeometryPass pass, bool occlus
   Programs programs(c, pass, occlusionTarget);
   const gl::Program* used = nullptr;
   gpu_scene::BoundInstance bound;
+  gpu_scene::PartRuns runs;
+  const scene::Frustum frustum(c.view);
   const plan::Details details = pass == plan::GeometryPass::GBuffer || pass == plan::GeometryPass::Forward ? plan::detailsOf(c.plan) : plan::Details{false, false};
   const bool counted = pass == plan::GeometryPass::GBuffer || pass == plan::GeometryPass::Forward;
   for (const scene::Batch& batch : c.batches) {
@@ -75,17 +87,23 @@ Result<void> drawInstances(FrameContext& c, plan::GeometryPass pass, bool occlus
     if (share != Share::All && variant.detail() != (share == Share::Detailed)) continue;
     auto program = programs.of(variant);
     if (!program) return fail(program.error());
+    const bool byRuns = findRuns(c, frustum, batch, runs);
+    if (byRuns && runs.size() == 0) continue;
     if (!(variant.instanced ? gpu_scene::bindInstances(c, batch, variant.general, bound) : gpu_scene::bindInstance(c, batch.first, variant.general, bound))) continue;
     if (*program != used) (used = *program)->use();
     raster.set(material.twoSided, v.flipped);
     before(material);
     if (variant.instanced)
       gl.DrawElementsInstanced(GL_TRIANGLES, bound.mesh->indexCount, bound.mesh->indexType, nullptr, GLsizei(batch.count));
-    else
+    else if (!byRuns)
       gl.DrawElements(GL_TRIANGLES, bound.mesh->indexCount, bound.mesh->indexType, nullptr);
+    else if (runs.size() == 1)
+      gl.DrawElements(GL_TRIANGLES, runs.counts()[0], bound.mesh->indexType, runs.offsets()[0]);
+    else
+      gl.MultiDrawElements(GL_TRIANGLES, runs.counts(), bound.mesh->indexType, runs.offsets(), runs.size());
     if (!counted) continue;
     ++c.stats.draws;
-    c.stats.triangles += std::uint64_t(bound.mesh->indexCount) / 3 * batch.count;
+    c.stats.triangles += (byRuns ? runs.indices() : std::uint64_t(bound.mesh->indexCount)) / 3 * batch.count;
   }
   return {};
 }

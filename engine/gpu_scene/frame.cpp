@@ -252,12 +252,17 @@ const gl::VertexArray& FrameBuffers::noVertices(gl::Device& device) {
   return none_;
 }
 
+const GpuMesh* meshOf(FrameContext& c, std::size_t i) {
+  const Instance& instance = *c.visible[i].instance;
+  const Material* material = c.scene.materials.get(instance.material);
+  return c.gpuScene.mesh(c.scene, instance.mesh, material && plan::wantsTangents(*material), c.report);
+}
+
 namespace {
 
 bool bindMesh(FrameContext& c, std::size_t i, bool general, bool instanced, BoundInstance& bound) {
   const scene::VisibleInstance& v = c.visible[i];
-  const Material* material = c.scene.materials.get(v.instance->material);
-  const GpuMesh* mesh = c.gpuScene.mesh(c.scene, v.instance->mesh, material && plan::wantsTangents(*material), c.report);
+  const GpuMesh* mesh = meshOf(c, i);
   if (!mesh) return false;
   const GLuint vertices = v.pose ? c.gpuScene.deformation().vertices(v.id, mesh->serial) : mesh->vertices.id();
   if (!vertices) return false;

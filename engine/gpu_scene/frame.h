@@ -128,6 +128,8 @@ struct FrameContext {
 Result<void> uploadFrameData(FrameContext& context, float displayExposure);
 /// Transforms of every visible instance into buffers.draws, in order.
 Result<void> uploadDraws(FrameContext& context);
+/// The mesh that visible instance i is drawn with; nullptr: it is not there (yet).
+const GpuMesh* meshOf(FrameContext& context, std::size_t i);
 /// Binds the vertex array, geometry and uniform ranges of visible instance i; false when its mesh is not there (yet). `general`: the program reads the second vertex buffer.
 /// `bound` remembers what the last call bound, so that nothing is bound twice in a row (each binding makes a software renderer prepare its state anew);
 /// start each pass with an empty one.

@@ -64,6 +64,7 @@ Result<std::unique_ptr<GpuMesh>> uploadMesh(gl::Device& device, const Mesh& mesh
   }
   gpu->vertexCount = int(vertices.size());
   gpu->indexCount = int(mesh.indices.size());
+  gpu->parts = partsOf(mesh);
   Result<gl::Buffer> indexBuffer;
   if (mesh.positions.size() <= 65535) {
     const std::vector<std::uint16_t> small(mesh.indices.begin(), mesh.indices.end());

@@ -10,6 +10,7 @@
 #include "gl/objects.h"
 #include "gpu_scene/deformation.h"
 #include "gpu_scene/layout.h"
+#include "gpu_scene/mesh_parts.h"
 
 namespace burnish::gpu_scene {
 
@@ -18,6 +19,7 @@ struct GpuMesh {
   gl::Buffer vertices, extras, indices;
   int indexCount = 0;
   GLenum indexType = GL_UNSIGNED_SHORT;
+  std::vector<MeshPart> parts;  ///< of its vertices as they are; empty: it is small
   bool tangents = false;
   bool madeTangents = false;    ///< preparedMesh was asked for them
   int vertexCount = 0;
