@@ -166,27 +166,41 @@ void TileCuller::markDetail(const scene::ViewFrame& view, const DetailBox& box) 
     }
 }
 
-// Two counting sorts: pairs by tile, then tiles by program.
-void TileCuller::buildLists(std::span<const scene::LocalLight> lights, std::size_t shadowed) {
-  const std::size_t tiles = slices_.size();
-  counts_.assign(tiles, 0);
-  spots_.assign(tiles, 0);
-  shadowed_.assign(tiles, 0);
-  for (const Pair& p : pairs_) {
-    ++counts_[p.tile];
-    spots_[p.tile] |= lights[p.light - 1u].cosOuter > -1;
-    shadowed_[p.tile] = std::uint16_t(shadowed_[p.tile] + (p.light <= shadowed));
-  }
-  offsets_.resize(tiles);
+// A counting sort: the lights of each tile in a row.
+void TileCuller::sortPairs() {
+  counts_.assign(slices_.size(), 0);
+  for (const Pair& p : pairs_) ++counts_[p.tile];
+  offsets_.resize(slices_.size());
   std::uint32_t total = 0;
-  for (std::size_t i = 0; i < tiles; ++i) {
+  for (std::size_t i = 0; i < slices_.size(); ++i) {
     offsets_[i] = total;
     total += counts_[i];
   }
   sorted_.resize(total);
   std::vector<std::uint32_t> next = offsets_;
   for (const Pair& p : pairs_) sorted_[next[p.tile]++] = p.light;
+}
 
+void TileCuller::keepReached(std::span<const scene::LocalLight> lights, TileSurfaces& surfaces) {
+  for (std::size_t i = 0; i < counts_.size(); ++i) {
+    if (counts_[i] == 0) continue;
+    surfaces.load(int(i) % columns_, int(i) / columns_);
+    std::uint16_t* const first = sorted_.data() + offsets_[i];
+    counts_[i] = std::uint32_t(std::remove_if(first, first + counts_[i], [&](std::uint16_t light) { return !surfaces.reached(lights[light - 1u]); }) - first);
+  }
+}
+
+// A counting sort: the tiles of each program in a row.
+void TileCuller::buildLists(std::span<const scene::LocalLight> lights, std::size_t shadowed) {
+  const std::size_t tiles = slices_.size();
+  spots_.assign(tiles, 0);
+  shadowed_.assign(tiles, 0);
+  for (std::size_t i = 0; i < tiles; ++i)
+    for (std::uint32_t k = 0; k < counts_[i]; ++k) {
+      const std::uint16_t light = sorted_[offsets_[i] + k];
+      spots_[i] |= lights[light - 1u].cosOuter > -1;
+      shadowed_[i] = std::uint16_t(shadowed_[i] + (light <= shadowed));
+    }
   lists_.tiles.clear();
   lists_.groups.clear();
   lists_.entries.clear();
@@ -227,13 +241,15 @@ void TileCuller::listBackground(std::span<const TileDepth> depths) {
   lists_.background.count = int(lists_.tiles.size()) - lists_.background.first;
 }
 
-const TileLists& TileCuller::cull(const scene::ViewFrame& view, std::span<const TileDepth> depths, std::span<const scene::LocalLight> lights, std::size_t shadowed, std::span<const DetailBox> details) {
+const TileLists& TileCuller::cull(const scene::ViewFrame& view, std::span<const TileDepth> depths, std::span<const scene::LocalLight> lights, std::size_t shadowed, std::span<const DetailBox> details, TileSurfaces* surfaces) {
   columns_ = (view.viewport.z + TILE_SIZE - 1) / TILE_SIZE;
   rows_ = (view.viewport.w + TILE_SIZE - 1) / TILE_SIZE;
   near_ = view.near;
   boundTiles(view, depths);
   pairs_.clear();
   for (std::size_t i = 0; i < lights.size(); ++i) cullLight(view, lights[i], std::uint16_t(i + 1));
+  sortPairs();
+  if (surfaces) keepReached(lights, *surfaces);
   detail_.assign(depths.size(), 0);
   for (const DetailBox& box : details) markDetail(view, box);
   buildLists(lights, shadowed);

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "lighting/tile_surfaces.h"
 #include "plan/variants.h"
 #include "scene/visibility.h"
 
@@ -47,7 +48,9 @@ class TileCuller {
  public:
   /// No false negatives: every light whose sphere (and cone) touches a surface between the tile's depths is listed. Lights past 65534 are left out by the caller.
   /// `shadowed`: so many of the first lights cast shadows. `details`: around brushed and rough surfaces; tiles that may show one go into groups of their own.
-  const TileLists& cull(const scene::ViewFrame& view, std::span<const TileDepth> depths, std::span<const scene::LocalLight> lights, std::size_t shadowed = 0, std::span<const DetailBox> details = {});
+  /// `surfaces`: where there are any, lights that reach no pixel of a tile from its front are not listed for it.
+  const TileLists& cull(const scene::ViewFrame& view, std::span<const TileDepth> depths, std::span<const scene::LocalLight> lights, std::size_t shadowed = 0, std::span<const DetailBox> details = {},
+                        TileSurfaces* surfaces = nullptr);
 
  private:
   struct Pair {
@@ -57,6 +60,8 @@ class TileCuller {
   void boundTiles(const scene::ViewFrame& view, std::span<const TileDepth> depths);
   void cullLight(const scene::ViewFrame& view, const scene::LocalLight& light, std::uint16_t index);
   void markDetail(const scene::ViewFrame& view, const DetailBox& box);
+  void sortPairs();
+  void keepReached(std::span<const scene::LocalLight> lights, TileSurfaces& surfaces);
   void buildLists(std::span<const scene::LocalLight> lights, std::size_t shadowed);
   void listBackground(std::span<const TileDepth> depths);
 

@@ -49,6 +49,13 @@ Result<void> LightingPass::readTileDepths(FrameContext& c) {
   return {};
 }
 
+void LightingPass::readTileSurfaces(FrameContext& c) {
+  const glm::ivec4 v = c.view.viewport;
+  normals_.resize(depth_.size());
+  c.device.gl.GetTextureSubImage(c.targets.texture("gbuffer_b")->id(), 0, v.x, v.y, 0, v.z, v.w, 1, GL_RGBA, GL_UNSIGNED_BYTE, GLsizei(normals_.size() * sizeof(std::uint32_t)), normals_.data());
+  surfaces_.begin(c.view, depth_, normals_);
+}
+
 Result<void> LightingPass::uploadLights(FrameContext& c) {
   const std::size_t shadowed = c.shadows ? c.shadows->locals.size() : 0;
   std::vector<glm::vec4> texels(LIGHT_TEXELS * (c.lights.local.size() + 1), glm::vec4(0));
@@ -104,9 +111,10 @@ std::vector<DetailBox> detailBoxes(const FrameContext& c) {
 
 Result<void> LightingPass::buildTiles(FrameContext& c) {
   if (auto read = readTileDepths(c); !read) return read;
-  lists_ = &culler_.cull(c.view, tileDepths_, c.lights.local, c.shadows ? c.shadows->locals.size() : 0, detailBoxes(c));
+  const bool local = c.plan.on("local_lights"), surfaces = local && !c.targets.texture("tile_depth");
+  if (surfaces) readTileSurfaces(c);
+  lists_ = &culler_.cull(c.view, tileDepths_, c.lights.local, c.shadows ? c.shadows->locals.size() : 0, detailBoxes(c), surfaces ? &surfaces_ : nullptr);
   c.stats.lightsInView += lists_->lightsInView;
-  const bool local = c.plan.on("local_lights");
   if (local)
     if (auto w = uploadLights(c); !w) return w;
   return uploadLists(local);

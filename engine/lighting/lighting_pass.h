@@ -28,6 +28,7 @@ class LightingPass {
 
  private:
   Result<void> readTileDepths(gpu_scene::FrameContext& context);
+  void readTileSurfaces(gpu_scene::FrameContext& context);
   Result<void> uploadLights(gpu_scene::FrameContext& context);
   Result<void> uploadLists(bool entries);
   /// The environment and the lobe's table, where the quality reads them.
@@ -42,6 +43,8 @@ class LightingPass {
   const TileLists* lists_ = nullptr;
   std::vector<float> depth_;
   std::vector<TileDepth> tileDepths_;
+  std::vector<std::uint32_t> normals_;
+  TileSurfaces surfaces_;
   gl::Buffer tiles_;
   gl::VertexArray tileArray_;
   gl::TextureBuffer lights_, entries_;

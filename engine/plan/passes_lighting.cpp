@@ -17,7 +17,10 @@ void addTiles(Builder& b) {
   if (!s.hasTiles()) return;
   PassPlan& pass = b.pass("tiles", {"directional_lights", "local_lights", "environment_lighting", "screen_occlusion", "debug_view"}, {"depth"}, {"light lists"});
   if (s.on("local_lights")) pass.writes.emplace_back("lights");
-  if (!s.reducesDepth()) return;
+  if (!s.reducesDepth()) {
+    if (s.on("local_lights")) pass.reads.emplace_back("gbuffer_b");  // normals, to leave out lights from behind
+    return;
+  }
   b.target("tile_depth", "RGBA32F", {"directional_lights", "local_lights", "environment_lighting", "screen_occlusion", "debug_view"}, (s.options.size + 15) / 16);
   pass.writes.push_back("tile_depth");
   for (bool o : s.projections()) b.useScreen(pass, o ? "tile_depth+ortho" : "tile_depth", "lighting/tile_depth.frag", {define("ORTHOGRAPHIC", o)});

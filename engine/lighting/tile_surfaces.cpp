@@ -1,0 +1,91 @@
+#include "lighting/tile_surfaces.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "interface/limits.h"
+
+// Compiled for wider vectors as well; the machine chooses. (Sanitizers do not work in what chooses.)
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+#define WIDE __attribute__((target_clones("avx2", "default")))
+#else
+#define WIDE
+#endif
+
+namespace burnish::lighting {
+namespace {
+
+constexpr float kNowhere = 1e18f;  // metres: where pixels without a surface are
+
+}  // namespace
+
+void TileSurfaces::begin(const scene::ViewFrame& view, std::span<const float> depth, std::span<const std::uint32_t> normals) {
+  static_assert(TILE_SIZE * TILE_SIZE == kPixels);
+  view_ = view;
+  depth_ = depth;
+  normals_ = normals;
+}
+
+WIDE void TileSurfaces::load(int tx, int ty) {
+  const scene::ViewFrame& v = view_;
+  const int width = v.viewport.z, height = v.viewport.w, left = tx * TILE_SIZE, w = std::min(TILE_SIZE, width - left);
+  rows_ = std::min(TILE_SIZE, height - ty * TILE_SIZE);
+  const glm::vec3 right(v.axes[0] * (2 * v.tanX / width)), forward(-v.axes[2]);
+  const float a = float(v.depthParams.x), b = float(v.depthParams.y);
+  for (int row = 0; row < rows_; ++row) {
+    const int y = ty * TILE_SIZE + row;
+    const glm::dvec3 start = v.axes[0] * ((2 * (left + 0.5 + v.jitter.x) / width - 1) * v.tanX) + v.axes[1] * ((2 * (y + 0.5 + v.jitter.y) / height - 1) * v.tanY);
+    const glm::vec3 ray(v.orthographic ? start : start - v.axes[2]);
+    const std::size_t first = std::size_t(y) * std::size_t(width) + std::size_t(left);
+    const float* depth = depth_.data() + first;
+    const std::uint32_t* normals = normals_.data() + first;
+    float *const x = x_ + row * TILE_SIZE, *const yy = y_ + row * TILE_SIZE, *const z = z_ + row * TILE_SIZE;
+    float *const nx = nx_ + row * TILE_SIZE, *const ny = ny_ + row * TILE_SIZE, *const nz = nz_ + row * TILE_SIZE;
+    // Along the ray, and along the view's direction (parallel projection).
+    float along[TILE_SIZE], offset[TILE_SIZE];
+    for (int i = 0; i < w; ++i) {
+      along[i] = v.orthographic ? 1.0f : a / (depth[i] + b);
+      offset[i] = v.orthographic ? a - depth[i] * b : 0.0f;
+    }
+    for (int i = w; i < TILE_SIZE; ++i) along[i] = offset[i] = 0;
+    for (int i = 0; i < TILE_SIZE; ++i) {
+      const float k = float(i), there = i < w && depth[i < w ? i : 0] > 0 ? 0.0f : kNowhere;
+      x[i] = (ray.x + right.x * k) * along[i] + forward.x * offset[i] + there;
+      yy[i] = (ray.y + right.y * k) * along[i] + forward.y * offset[i];
+      z[i] = (ray.z + right.z * k) * along[i] + forward.z * offset[i];
+    }
+    for (int i = 0; i < w; ++i) {
+      // shading/normals.h: unpackNormal, before it is normalized.
+      const std::int32_t n = std::int32_t(normals[i] & 0xffffffu);
+      const float u = float((n & 255) | (n >> 12 & 0xf00)) * (1 / 2047.0f) - 1, t = float((n >> 8 & 255) | (n >> 8 & 0xf00)) * (1 / 2047.0f) - 1;
+      const float up = 1 - std::abs(u) - std::abs(t), fold = up < 0 ? -up : 0.0f;
+      nx[i] = u - std::copysign(fold, u);
+      ny[i] = t - std::copysign(fold, t);
+      nz[i] = up;
+    }
+    for (int i = w; i < TILE_SIZE; ++i) nx[i] = ny[i] = nz[i] = 0;
+  }
+}
+
+WIDE bool TileSurfaces::reached(const scene::LocalLight& light) const {
+  const float px = light.position.x, py = light.position.y, pz = light.position.z;
+  // What the shader's own floats may differ by: positions by 1e-5 of their distance, signs where the light grazes.
+  const float slack = 1e-4f * (glm::length(light.position) + light.radius), radius = light.radius + slack, radius2 = radius * radius;
+  for (int row = 0; row < rows_; ++row) {
+    const int first = row * TILE_SIZE;
+    // One vector after another, without a branch.
+    float nearest[TILE_SIZE];
+    for (int k = 0; k < TILE_SIZE; ++k) {
+      const int i = first + k;
+      const float dx = px - x_[i], dy = py - y_[i], dz = pz - z_[i];
+      const float facing = nx_[i] * dx + ny_[i] * dy + nz_[i] * dz, d2 = dx * dx + dy * dy + dz * dz;
+      nearest[k] = facing > -slack ? d2 : 3e38f;
+    }
+    float least = nearest[0];
+    for (int k = 1; k < TILE_SIZE; ++k) least = nearest[k] < least ? nearest[k] : least;
+    if (least < radius2) return true;
+  }
+  return false;
+}
+
+}  // namespace burnish::lighting
