@@ -117,7 +117,7 @@ struct PrefilterReport {
 /// Levels of an environment, each the integral over the lobe of its roughness: L_k(R) = ∫ L w / ∫ w. Texels of the source count as point samples at their centres, weighted by their exact
 /// solid angles. `source`: one level, or a lat-long picture (F32, 3 or 4 channels, its centre column toward -Z, its first row the zenith). Values that are not finite or negative are an
 /// error that names the first of them.
-BURNISH_API Result<Cubemap> prefilter(const CubeLevel& source, const PrefilterOptions& options = {}, PrefilterReport* report = nullptr);
-BURNISH_API Result<Cubemap> prefilter(const Image& latLong, const PrefilterOptions& options = {}, PrefilterReport* report = nullptr);
+BURNISH_API Result<Cubemap> prefilterCubemap(const CubeLevel& source, const PrefilterOptions& options = {}, PrefilterReport* report = nullptr);
+BURNISH_API Result<Cubemap> prefilterCubemap(const Image& latLong, const PrefilterOptions& options = {}, PrefilterReport* report = nullptr);
 
 }  // namespace burnish
