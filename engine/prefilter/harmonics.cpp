@@ -137,7 +137,7 @@ void evaluateAtPoints(const Harmonics& harmonics, const std::vector<double>& fac
   for (std::size_t l = 0; l < scaled.size(); ++l) scaled[l] = factor[l] / grid.kernelBands[l];
   RingSpectra spectra = spectraOf(grid);
   synthesiseSpectra(harmonics, scaled, threads, spectra);
-  std::vector<double> rows(std::size_t(grid.count()) * 4 * grid.stride);
+  Buffer<double> rows(std::size_t(grid.count()) * 4 * grid.stride);
   forEachPiece(grid.count(), threads, [&](int r) {
     const RingView& ring = grid.rings[std::size_t(r)];
     const int n = ring.size, last = grid.lastOrder(r), side = r >= grid.count() / 2;

@@ -1,6 +1,7 @@
 // Spherical-harmonic coefficients of four channels, and the transforms from and to rings.
 #pragma once
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "prefilter/kernels.h"
@@ -34,12 +35,31 @@ void analyseSpectra(const RingSpectra& spectra, int threads, Harmonics& out);
 /// F(z) and F(-z) of a_lm · factor[l]; bands: those of the spectra, at most those of the harmonics.
 void synthesiseSpectra(const Harmonics& harmonics, const std::vector<double>& factor, int threads, RingSpectra& spectra);
 
+/// Leaves new elements as they are: large arrays that are filled right after.
+template <class T>
+struct LeaveAlone : std::allocator<T> {
+  template <class U>
+  struct rebind {
+    using other = LeaveAlone<U>;
+  };
+  template <class U>
+  void construct(U* at) {
+    ::new (static_cast<void*>(at)) U;
+  }
+  template <class U, class... Args>
+  void construct(U* at, Args&&... args) {
+    ::new (static_cast<void*>(at)) U(std::forward<Args>(args)...);
+  }
+};
+template <class T>
+using Buffer = std::vector<T, LeaveAlone<T>>;
+
 /// Points sorted by polar angle into bins of equal height, for a grid.
 struct SortedPoints {
-  std::vector<double> x, y, z;
-  std::vector<float> turn;
-  std::vector<std::uint32_t> order;     ///< where each comes from; empty where nobody asks
-  std::vector<double> values;             ///< four a point; empty for points to be evaluated
+  Buffer<double> x, y, z;
+  Buffer<float> turn;
+  Buffer<std::uint32_t> order;           ///< where each comes from; empty where nobody asks
+  Buffer<double> values;                  ///< four a point; empty for points to be evaluated
   std::vector<std::uint32_t> firstOfBin;  ///< bins + 1
   [[nodiscard]] int bins() const { return int(firstOfBin.size()) - 1; }
   [[nodiscard]] std::size_t count() const { return x.size() - kRingGroup; }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 // Vectors without a size that the compiler knows cannot hold the blocks below: those processors take their fixed-size set.
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_RVV)
@@ -22,24 +23,39 @@ using Floats = hn::CappedTag<float, 16>;
 using Vec = hn::Vec<Doubles>;
 constexpr std::size_t kLanes = hn::MaxLanes(Doubles());
 
-// Horner; u > 0 is the caller's.
+// The kernel's polynomial by Horner, of a degree that the compiler knows; u >= 0 is the caller's.
+template <int kDegree>
 HWY_INLINE Vec evaluate(const KernelPolynomial& k, Vec u) {
   const Doubles d;
-  Vec sum = hn::Set(d, k.c[k.degree]);
-  for (int i = k.degree - 1; i >= 1; --i) sum = hn::MulAdd(sum, u, hn::Set(d, k.c[i]));
+  Vec sum = hn::Set(d, k.c[kDegree]);
+  HWY_UNROLL(16)
+  for (int i = kDegree - 1; i >= 1; --i) sum = hn::MulAdd(sum, u, hn::Set(d, k.c[i]));
   return hn::Mul(sum, u);
+}
+
+// Calls f.operator()<degree>() with the next degree of those compiled; coefficients above the polynomial's own are zero.
+template <class F>
+HWY_INLINE void withDegree(int degree, const F& f) {
+  if (degree <= 10)
+    f(std::integral_constant<int, 10>());
+  else if (degree <= 13)
+    f(std::integral_constant<int, 13>());
+  else
+    f(std::integral_constant<int, KernelPolynomial::kMostDegree>());
 }
 
 HWY_INLINE int firstTap(const RingView& ring, float turn) { return ring.taps >= ring.size ? 0 : int(std::ceil(double(turn) * ring.size - 0.5 * ring.taps)); }
 
+template <int kDegree>
 HWY_INLINE Vec weightsAt(const RingView& ring, const KernelPolynomial& kernel, int k, int tap, Vec x, Vec y, Vec u0) {
   const Doubles d;
   Vec u = hn::MulAdd(x, hn::LoadU(d, ring.cosine + k), hn::MulAdd(y, hn::LoadU(d, ring.sine + k), u0));
-  const Vec w = evaluate(kernel, hn::Max(u, hn::Zero(d)));
+  const Vec w = evaluate<kDegree>(kernel, hn::Max(u, hn::Zero(d)));
   return ring.taps >= ring.size && tap + int(kLanes) > ring.size ? hn::IfThenElseZero(hn::FirstN(d, std::size_t(ring.size - tap)), w) : w;
 }
 
-void spread(const PointsView& p, const double* values, std::size_t begin, std::size_t end, const RingView& ring, const KernelPolynomial& kernel, double* row, std::size_t stride) {
+template <int kDegree>
+HWY_INLINE void spreadWith(const PointsView& p, const double* values, std::size_t begin, std::size_t end, const RingView& ring, const KernelPolynomial& kernel, double* row, std::size_t stride) {
   const Doubles d;
   double* HWY_RESTRICT base = row + kRingPad;
   const Vec uScale = hn::Set(d, 1 - kernel.scale), zScale = hn::Set(d, kernel.scale * ring.z);
@@ -49,7 +65,7 @@ void spread(const PointsView& p, const double* values, std::size_t begin, std::s
     const Vec v0 = hn::Set(d, v[0]), v1 = hn::Set(d, v[1]), v2 = hn::Set(d, v[2]), v3 = hn::Set(d, v[3]);
     const int k0 = firstTap(ring, p.turn[j]);
     for (int t = 0; t < ring.taps; t += int(kLanes)) {
-      const Vec w = weightsAt(ring, kernel, k0 + t, t, x, y, u0);
+      const Vec w = weightsAt<kDegree>(ring, kernel, k0 + t, t, x, y, u0);
       double* q = base + k0 + t;
       hn::StoreU(hn::MulAdd(w, v0, hn::LoadU(d, q)), d, q);
       q += stride;
@@ -62,7 +78,8 @@ void spread(const PointsView& p, const double* values, std::size_t begin, std::s
   }
 }
 
-void gather(const PointsView& p, std::size_t begin, std::size_t end, const RingView* rings, int firstRing, int lastRing, const KernelPolynomial& kernel, const double* rows, std::size_t stride,
+template <int kDegree>
+HWY_INLINE void gatherWith(const PointsView& p, std::size_t begin, std::size_t end, const RingView* rings, int firstRing, int lastRing, const KernelPolynomial& kernel, const double* rows, std::size_t stride,
             double* out) {
   const Doubles d;
   for (std::size_t j = begin; j < end; ++j) {
@@ -74,7 +91,7 @@ void gather(const PointsView& p, std::size_t begin, std::size_t end, const RingV
       const int k0 = firstTap(ring, p.turn[j]);
       const double* base = rows + std::size_t(r) * 4 * stride + kRingPad + k0;
       for (int t = 0; t < ring.taps; t += int(kLanes)) {
-        const Vec w = weightsAt(ring, kernel, k0 + t, t, x, y, u0);
+        const Vec w = weightsAt<kDegree>(ring, kernel, k0 + t, t, x, y, u0);
         const double* q = base + t;
         s0 = hn::MulAdd(w, hn::LoadU(d, q), s0);
         s1 = hn::MulAdd(w, hn::LoadU(d, q + stride), s1);
@@ -88,6 +105,15 @@ void gather(const PointsView& p, std::size_t begin, std::size_t end, const RingV
     o[2] = hn::GetLane(hn::SumOfLanes(d, s2));
     o[3] = hn::GetLane(hn::SumOfLanes(d, s3));
   }
+}
+
+void spread(const PointsView& p, const double* values, std::size_t begin, std::size_t end, const RingView& ring, const KernelPolynomial& kernel, double* row, std::size_t stride) {
+  const RingView r = ring;
+  withDegree(kernel.degree, [&](auto degree) HWY_ATTR { spreadWith<degree>(p, values, begin, end, r, kernel, row, stride); });
+}
+void gather(const PointsView& p, std::size_t begin, std::size_t end, const RingView* rings, int firstRing, int lastRing, const KernelPolynomial& kernel, const double* rows, std::size_t stride,
+            double* out) {
+  withDegree(kernel.degree, [&](auto degree) HWY_ATTR { gatherWith<degree>(p, begin, end, rings, firstRing, lastRing, kernel, rows, stride, out); });
 }
 
 void row(const double* values, std::size_t columns, const double* weights, const std::int32_t* first, int taps, double* out, std::size_t stride) {

@@ -99,7 +99,8 @@ double smoothPart(const Lobe& lobe, const Split& s, double x) {
 }  // namespace
 
 Split splitLobe(const Lobe& lobe, double error, double texels, double outputs) {
-  const double share = error * 0.1;
+  // Next to a light the dark is a thousandth of the mean, and is to be right too. A Gaussian's bands end so suddenly that more care costs little.
+  const double share = error * (lobe.shape == ReflectionLobe::BlinnPhong ? 0.002 : 0.05);
   // The kink at the horizon: its bands fall like l^-2.5 for ever. Bright texels are summed apart, so what is left of the source has little in high bands, and the point's own measure would ask for
   // far too many (docs/prefilter.md has the errors).
   const int kink = std::clamp(int(160 * std::pow(1e-4 / error, 0.4)), 32, kMostBands);
@@ -117,7 +118,7 @@ Split splitLobe(const Lobe& lobe, double error, double texels, double outputs) {
   }
   if (lobe.shape == ReflectionLobe::BlinnPhong) {
     // Past x = end there is e^-k of the lobe's integral.
-    const double end = 4 / lobe.power * std::log(3 / share);
+    const double end = 4 / lobe.power * std::log(60 / error);
     if (lobe.power < 500 || directCost(texels, outputs, end) > cost) return whole;
     Split s;
     s.end = end;

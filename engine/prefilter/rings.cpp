@@ -114,7 +114,7 @@ GridChoice gridChoice(double error) {
   const double digits = -std::log10(error);
   GridChoice c;
   c.width = std::clamp(std::round(3 + digits), 4.0, 10.0);
-  c.degree = int(c.width) + 3;
+  c.degree = int(c.width) + 6;
   return c;
 }
 

@@ -13,8 +13,8 @@ namespace burnish::prefilter {
 /// How wide the kernel is and how fine the grid, for an error.
 struct GridChoice {
   double width = 7;         ///< rings within the kernel's reach
-  double oversampling = 1.5;  ///< rings over bands + 1
-  int degree = 10;          ///< of the kernel's polynomial
+  double oversampling = 1.75;  ///< rings over bands + 1
+  int degree = 13;          ///< of the kernel's polynomial
   bool operator==(const GridChoice&) const = default;
 };
 GridChoice gridChoice(double error);

@@ -63,11 +63,13 @@ class CubeSource final : public Source {
     arrays_.make(texels());
     const int size = cube_.size;
     forEachPiece(6 * size, threads, [&](int row) {
+      const int face = row / size, y = row % size;
+      const double v = (2.0 * y + 1) / size - 1;
       for (int x = 0; x < size; ++x) {
         const std::size_t i = std::size_t(row) * std::size_t(size) + std::size_t(x);
-        const double w = solidAngle_[i % solidAngle_.size()];
-        const glm::dvec3 radiance(cube_.texels[3 * i], cube_.texels[3 * i + 1], cube_.texels[3 * i + 2]);
-        arrays_.set(i, aboutY(texelDirection(size, row / size, x, row % size)), (radiance - mean) * w, w);
+        const double w = solidAngle_[i % solidAngle_.size()], u = (2.0 * x + 1) / size - 1;
+        const float* p = cube_.texels.data() + 3 * i;
+        arrays_.set(i, aboutY(cubeDirection(face, u, v)) / std::sqrt(u * u + v * v + 1), (glm::dvec3(p[0], p[1], p[2]) - mean) * w, w);
       }
     });
     for (const std::uint32_t i : brightTexels_) arrays_.set(i, direction(i), glm::dvec3(0), solidAngle_[i % solidAngle_.size()]);
@@ -80,8 +82,9 @@ class CubeSource final : public Source {
     const int size = cube_.size;
     runs.clear();
     for (int face = 0; face < 6; ++face) {
-      const glm::dvec3 origin = cubeDirection(face, 0, 0), alongU = cubeDirection(face, 1, 0) - origin, alongV = cubeDirection(face, 0, 1) - origin;
-      const double w = glm::dot(d, origin), u = glm::dot(d, alongU), v = glm::dot(d, alongV);
+      // d along the face's axis and its u and v: cubeDirection().
+      const double sign = face % 2 ? -1 : 1, w = sign * d[face / 2];
+      const double u = face < 2 ? -sign * d.z : face < 4 ? d.x : sign * d.x, v = face < 2 || face > 3 ? -d.y : sign * d.z;
       // The corners are 54.7 degrees from the axis: (1, 1)/sqrt(3) rotated by the cone's angle.
       if (w < 0.5773 * cosine - 0.8165 * sine) continue;
       const std::size_t base = std::size_t(face) * faceTexels(size);
@@ -173,10 +176,11 @@ SortedPoints cubePoints(int size, int bins, bool values, bool order) {
   for (int f = 0; f < 6; ++f)
     for (std::size_t i = 0; i < face; ++i) ++p.firstOfBin[binAt(f, i) + 1];
   for (std::size_t b = 0; b < std::size_t(bins); ++b) p.firstOfBin[b + 1] += p.firstOfBin[b];
-  p.x.assign(count + kRingGroup, 0);
-  p.y.assign(count + kRingGroup, 0);
-  p.z.assign(count + kRingGroup, 0);
-  p.turn.assign(count + kRingGroup, 0);
+  p.x.resize(count + kRingGroup);
+  p.y.resize(count + kRingGroup);
+  p.z.resize(count + kRingGroup);
+  p.turn.resize(count + kRingGroup);
+  for (std::size_t i = count; i < count + kRingGroup; ++i) p.x[i] = p.y[i] = p.z[i] = 0;
   if (order) p.order.resize(count);
   if (values) p.values.resize(4 * count);
   std::vector<std::uint32_t> next = p.firstOfBin;
