@@ -78,7 +78,7 @@ TEST_CASE("irradiance as a cube is the cosine lobe's integral") {
   const CubeLevel source = cubeOf(48, [&](const dvec3& d) { return dvec3(random() % 5, d.y > 0 ? 3 : 0.1, 1); });
   CubeLevel cube = prefilter::irradianceCube(*prefilter::makeSource(source, 1), 8);
   REQUIRE(cube.size == 8);
-  const Error e = errorOf(cube, pointsOf(source), ReflectionLobe::BlinnPhong, 100, {0, 1, 0});
+  const LevelError e = errorOf(cube, pointsOf(source), ReflectionLobe::BlinnPhong, 100, {0, 1, 0});
   CHECK(e.rms < 1e-4);
   // Power 0 is the cosine: straight up under an upper half of 3 over 0.1.
   CHECK(weightOf(ReflectionLobe::BlinnPhong, 1, 0.4) == Approx(0.6));

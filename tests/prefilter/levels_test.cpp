@@ -34,9 +34,9 @@ void judge(const std::string& map, const CubeLevel& source, int size, int levels
   for (const ReflectionLobe lobe : kLobes) {
     const Cubemap cube = prefilterCubemap(source, optionsOf(lobe, size, levels)).value();
     REQUIRE(int(cube.levels.size()) == levels);
-    Error all;
+    LevelError all;
     for (std::size_t k = 1; k < cube.levels.size(); ++k) {
-      const Error e = errorOf(cube.levels[k], points, lobe, samples, interest);
+      const LevelError e = errorOf(cube.levels[k], points, lobe, samples, interest);
       INFO(map << ", " << nameOf(lobe) << ", level " << k << " of " << cube.levels[k].size << "²: rms " << e.rms << ", worst " << e.worst << ", along edges " << e.edge);
       CHECK(e.rms < 1e-4);
       CHECK(e.worst < 1e-3);
@@ -109,7 +109,7 @@ TEST_CASE("lat-long pictures: the sum is over the picture's own texels") {
     for (const ReflectionLobe lobe : kLobes) {
       const Cubemap cube = prefilterCubemap(image, optionsOf(lobe, 32, 6)).value();
       for (std::size_t k = 1; k < cube.levels.size(); ++k) {
-        const Error e = errorOf(cube.levels[k], points, lobe, 60, points.direction[std::size_t(height / 3) * std::size_t(width) + 5]);
+        const LevelError e = errorOf(cube.levels[k], points, lobe, 60, points.direction[std::size_t(height / 3) * std::size_t(width) + 5]);
         INFO(width << " × " << height << ", " << nameOf(lobe) << ", level " << k << ": rms " << e.rms << ", worst " << e.worst);
         CHECK(e.rms < 1e-4);
         CHECK(e.worst < 1e-3);
@@ -142,7 +142,7 @@ TEST_CASE("any list of roughness: 1/255 is the nearest texels, 1 the broadest lo
         }
     WARN(nameOf(lobe) << " at roughness 1/255: off the source by " << worst << " of 99, off the mean of four by " << corner);
     for (std::size_t k = 2; k < levels.size(); ++k) {
-      const Error e = errorOf(levels[k], points, lobe, 60, {0, 1, 0});
+      const LevelError e = errorOf(levels[k], points, lobe, 60, {0, 1, 0});
       INFO(nameOf(lobe) << ", roughness " << levels[k].roughness << ": rms " << e.rms << ", worst " << e.worst);
       CHECK(e.rms < 1e-4);
       CHECK(e.worst < 1e-3);
@@ -222,7 +222,7 @@ TEST_CASE("the error falls as asked") {
     for (const double error : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7}) {
       const Cubemap cube = prefilterCubemap(source, optionsOf(lobe, 64, 6, error)).value();
       for (std::size_t k = 1; k < cube.levels.size(); ++k) {
-        const Error e = errorOf(cube.levels[k], points, lobe, 24, {0, 0, 1});
+        const LevelError e = errorOf(cube.levels[k], points, lobe, 24, {0, 0, 1});
         INFO(nameOf(lobe) << ", " << error << " asked, level " << k << ": rms " << e.rms << ", worst " << e.worst);
         CHECK(e.rms < std::max(error, 1.5e-7));  // levels are floats
       }
@@ -238,7 +238,7 @@ TEST_CASE("single texels from 1e5 to 1e30 keep their energy and leave the sky al
     for (const ReflectionLobe lobe : kLobes) {
       const Cubemap cube = prefilterCubemap(source, optionsOf(lobe, 64, 7)).value();
       for (std::size_t k = 1; k < cube.levels.size(); ++k) {
-        const Error e = errorOf(cube.levels[k], points, lobe, 24, points.direction[texel]);
+        const LevelError e = errorOf(cube.levels[k], points, lobe, 24, points.direction[texel]);
         INFO(value << ", " << nameOf(lobe) << ", level " << k << ": rms " << e.rms << ", worst " << e.worst);
         CHECK(e.rms < 1e-4);
         CHECK(e.worst < 1e-3);

@@ -115,14 +115,14 @@ inline CubeLevel sunCube(int size, const glm::dvec3& toSun) {
   return cubeOf(size, [&](const glm::dvec3& d) { return glm::dvec3(glm::dot(d, sun) > edge ? 1e5 : 1); }, 4);
 }
 
-struct Error {
+struct LevelError {
   double rms = 0;    ///< of the errors over that of the reference
   double worst = 0;  ///< max |e|/max(reference, 1e-6 of the level's mean)
   double edge = 0;   ///< the same at texels along edges and in corners
 };
 
 /// Errors of a level at all texels, or at `samples` of them: a third along edges and in corners, and a third around `interest`.
-inline Error errorOf(const CubeLevel& level, const Points& source, ReflectionLobe lobe, int samples, const glm::dvec3& interest, unsigned seed = 3) {
+inline LevelError errorOf(const CubeLevel& level, const Points& source, ReflectionLobe lobe, int samples, const glm::dvec3& interest, unsigned seed = 3) {
   std::mt19937 random(seed);
   const int n = level.size;
   double mean = 0;
@@ -143,7 +143,7 @@ inline Error errorOf(const CubeLevel& level, const Points& source, ReflectionLob
       texels.push_back({i / (n * n), x, y});
     }
   }
-  Error e;
+  LevelError e;
   double squares = 0, reference = 0;
   for (const auto& [f, x, y] : texels) {
     const glm::dvec3 truth = integrated(source, centreOf(n, f, x, y), lobe, level.roughness);
