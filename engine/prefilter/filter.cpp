@@ -36,10 +36,11 @@ FullLobe fullLobeOf(const Lobe& lobe) {
 }
 
 /// Where a lobe is so narrow that it falls between the texels: the quotient of the sums is that of weights over the largest of them, those of the nearest texels. sums: as out of sumNear.
-void sumNarrowest(const Source& source, const TexelsView& texels, const glm::dvec3& direction, const Lobe& lobe, double sums[4]) {
+void sumNarrowest(const Source& source, const TexelsView& texels, const glm::dvec3& direction, const Lobe& lobe, double reach, double sums[4]) {
   std::vector<Run> runs;
   const glm::dvec3 r = aboutY(direction);
-  for (double angle = source.texelAngle();; angle *= 2) {
+  // What the nearest texel's weight does not dwarf lies within the lobe's own reach of it.
+  for (double angle = source.texelAngle() + 1.2 * reach;; angle *= 2) {
     const double end = angle < 1 ? 1 - std::cos(angle) : 2;
     if (angle < 0.25)
       source.runsNear(direction, end, runs);
@@ -94,11 +95,11 @@ CubeLevel filterLevel(const Source& source, const LevelSpec& spec, const Lobe& l
     else
       evaluateExactly(harmonics, factor, points, threads, sums);
   }
-  const TexelsView* texels = split.end > 0 ? &source.texelArrays(threads) : nullptr;
+  const TexelsView* texels = split.end > 0 || split.all ? &source.texelArrays(threads) : nullptr;
   const NearLobe nearLobe = nearLobeOf(lobe, split);
   const FullLobe full = fullLobeOf(lobe);
   CubeLevel out{spec.size, spec.roughness, std::vector<float>(3 * points.count())};
-  constexpr std::size_t kPiece = 512;
+  const std::size_t kPiece = split.all ? 1 : 512;
   const int pieces = int((points.count() + kPiece - 1) / kPiece);
   if (texels) {
     // In the order of texels, whose neighbours read the same part of the source.
@@ -109,6 +110,10 @@ CubeLevel filterLevel(const Source& source, const LevelSpec& spec, const Lobe& l
       for (std::size_t i = std::size_t(piece) * kPiece; i < std::min(points.count(), (std::size_t(piece) + 1) * kPiece); ++i) {
         const std::size_t j = sorted[i];
         const double r[3] = {points.x[j], points.y[j], points.z[j]};
+        if (split.all) {
+          sumTexels(*texels, 0, source.texels(), r, full, &sums[4 * j]);
+          continue;
+        }
         source.runsNear(directionOf(points, j), split.end, runs);
         sumNear(*texels, runs.data(), runs.size(), r, nearLobe, &sums[4 * j]);
       }
@@ -120,8 +125,8 @@ CubeLevel filterLevel(const Source& source, const LevelSpec& spec, const Lobe& l
     if (!source.bright.empty()) sumBright(points.view(), first, last, source.bright.data(), source.bright.size() / 6, full, sums.data());
     for (std::size_t j = first; j < last; ++j) {
       double* s = &sums[4 * j];
-      // Under what floats resolve well, the lobe has missed the texels.
-      if (split.far.empty() && s[3] < 1e-20) sumNarrowest(source, *texels, directionOf(points, j), lobe, s);
+      // Far under the lobe's integral (8 π/p): it has missed the texels, and what was cut of it may count.
+      if (split.far.empty() && !split.all && s[3] < 0.3 * 8 * kPi / lobe.power) sumNarrowest(source, *texels, directionOf(points, j), lobe, std::acos(1 - split.end), s);
       float* texel = out.texels.data() + 3 * std::size_t(points.order[j]);
       for (int c = 0; c < 3; ++c) {
         const double value = source.mean[c] + s[c] / s[3];
@@ -160,6 +165,7 @@ std::vector<CubeLevel> filterLevels(const Source& source, std::span<const LevelS
       l.roughness = levels[k].roughness;
       l.power = lobes[k].power;
       l.bands = splits[k].bands();
+      if (splits[k].all) l.samples = int(std::min(source.texels(), std::size_t(1) << 30));
       if (splits[k].end > 0) l.samples = int(std::min(1e9, double(source.texels()) * splits[k].end / 2 * 1.3));
       l.ms = wallMilliseconds() - start;
     }

@@ -300,9 +300,45 @@ void nearTexels(const TexelsView& t, const Run* runs, std::size_t count, const d
   sums[3] += double(hn::GetLane(hn::SumOfLanes(d, s3)));
 }
 
+HWY_INLINE Vec lobeAt(const FullLobe& lobe, Vec x) {
+  const Doubles d;
+  const Vec one = hn::Set(d, 1.0);
+  if (lobe.ggx) {
+    const Vec q = hn::MulAdd(hn::Set(d, lobe.slope), x, one);
+    return hn::Div(hn::Sub(one, x), hn::Mul(q, q));
+  }
+  if (lobe.halfPower == 0) return hn::Sub(one, x);
+  const Vec e = hn::Mul(hn::Set(d, lobe.halfPower), hn::Log1p(d, hn::Mul(hn::Set(d, -0.5), hn::Min(x, one))));
+  return hn::Mul(hn::Exp(d, hn::Max(e, hn::Set(d, -700.0))), hn::Sub(one, x));
+}
+
+void all(const TexelsView& t, std::size_t begin, std::size_t end, const double direction[3], const FullLobe& lobe, double sums[4]) {
+  const Doubles d;
+  const hn::Rebind<float, Doubles> df;
+  const auto load = [&](const float* p) HWY_ATTR { return hn::PromoteTo(d, hn::LoadU(df, p)); };
+  const Vec rx = hn::Set(d, direction[0]), ry = hn::Set(d, direction[1]), rz = hn::Set(d, direction[2]), half = hn::Set(d, 0.5), stop = hn::Set(d, std::min(lobe.end, 1.0)), zero = hn::Zero(d);
+  Vec s0 = zero, s1 = zero, s2 = zero, s3 = zero;
+  for (std::size_t i = begin; i < end; i += kLanes) {
+    const Vec dx = hn::Sub(load(t.x + i), rx), dy = hn::Sub(load(t.y + i), ry), dz = hn::Sub(load(t.z + i), rz);
+    const Vec x = hn::Mul(half, hn::MulAdd(dx, dx, hn::MulAdd(dy, dy, hn::Mul(dz, dz))));
+    auto inside = hn::Lt(x, stop);
+    if (i + kLanes > end) inside = hn::And(inside, hn::FirstN(d, end - i));
+    if (hn::AllFalse(d, inside)) continue;
+    const Vec w = hn::IfThenElseZero(inside, lobeAt(lobe, x));
+    s0 = hn::MulAdd(w, load(t.r + i), s0);
+    s1 = hn::MulAdd(w, load(t.g + i), s1);
+    s2 = hn::MulAdd(w, load(t.b + i), s2);
+    s3 = hn::MulAdd(w, load(t.solidAngle + i), s3);
+  }
+  sums[0] += hn::GetLane(hn::SumOfLanes(d, s0));
+  sums[1] += hn::GetLane(hn::SumOfLanes(d, s1));
+  sums[2] += hn::GetLane(hn::SumOfLanes(d, s2));
+  sums[3] += hn::GetLane(hn::SumOfLanes(d, s3));
+}
+
 void bright(const PointsView& p, std::size_t begin, std::size_t end, const double* sources, std::size_t count, const FullLobe& lobe, double* out) {
   const Doubles d;
-  const Vec one = hn::Set(d, 1.0), half = hn::Set(d, 0.5), stop = hn::Set(d, std::min(lobe.end, 1.0));
+  const Vec half = hn::Set(d, 0.5), stop = hn::Set(d, std::min(lobe.end, 1.0));
   for (std::size_t i = begin; i < end; i += kLanes) {
     const std::size_t n = std::min(kLanes, end - i);
     const Vec px = hn::LoadU(d, p.x + i), py = hn::LoadU(d, p.y + i), pz = hn::LoadU(d, p.z + i);
@@ -313,15 +349,7 @@ void bright(const PointsView& p, std::size_t begin, std::size_t end, const doubl
       const Vec x = hn::Mul(half, hn::MulAdd(dx, dx, hn::MulAdd(dy, dy, hn::Mul(dz, dz))));
       const auto inside = hn::Lt(x, stop);
       if (hn::AllFalse(d, inside)) continue;
-      Vec w;
-      if (lobe.ggx) {
-        const Vec q = hn::MulAdd(hn::Set(d, lobe.slope), x, one);
-        w = hn::Div(hn::Sub(one, x), hn::Mul(q, q));
-      } else {
-        const Vec e = hn::Mul(hn::Set(d, lobe.halfPower), hn::Log1p(d, hn::Mul(hn::Set(d, -0.5), hn::Min(x, one))));
-        w = hn::Mul(hn::Exp(d, hn::Max(e, hn::Set(d, -700.0))), hn::Sub(one, x));
-      }
-      w = hn::IfThenElseZero(inside, w);
+      const Vec w = hn::IfThenElseZero(inside, lobeAt(lobe, x));
       s0 = hn::MulAdd(w, hn::Set(d, s[3]), s0);
       s1 = hn::MulAdd(w, hn::Set(d, s[4]), s1);
       s2 = hn::MulAdd(w, hn::Set(d, s[5]), s2);
@@ -349,6 +377,7 @@ HWY_EXPORT(analysis);
 HWY_EXPORT(synthesis);
 HWY_EXPORT(cone);
 HWY_EXPORT(nearTexels);
+HWY_EXPORT(all);
 HWY_EXPORT(bright);
 
 void spreadToRing(const PointsView& points, const double* values, std::size_t begin, std::size_t end, const RingView& ring, const KernelPolynomial& kernel, double* row, std::size_t stride) {
@@ -370,6 +399,9 @@ void legendreSynthesis(const LegendreOrder& order, const double* z, const double
 void coneRows(const FaceCone& f, int firstRow, int count, std::int32_t* first, std::int32_t* last) { HWY_DYNAMIC_DISPATCH(cone)(f, firstRow, count, first, last); }
 void sumNear(const TexelsView& texels, const Run* runs, std::size_t count, const double direction[3], const NearLobe& lobe, double sums[4]) {
   HWY_DYNAMIC_DISPATCH(nearTexels)(texels, runs, count, direction, lobe, sums);
+}
+void sumTexels(const TexelsView& texels, std::size_t begin, std::size_t end, const double direction[3], const FullLobe& lobe, double sums[4]) {
+  HWY_DYNAMIC_DISPATCH(all)(texels, begin, end, direction, lobe, sums);
 }
 void sumBright(const PointsView& points, std::size_t begin, std::size_t end, const double* sources, std::size_t count, const FullLobe& lobe, double* out) {
   HWY_DYNAMIC_DISPATCH(bright)(points, begin, end, sources, count, lobe, out);

@@ -90,6 +90,8 @@ struct FullLobe {
   bool ggx = false;
   double halfPower = 0, slope = 0, end = 1;  ///< x from `end` on: nothing
 };
+/// sums[0..3] += Σ of the whole lobe × (r, g, b, solid angle) over texels [begin, end), in double.
+void sumTexels(const TexelsView& texels, std::size_t begin, std::size_t end, const double direction[3], const FullLobe& lobe, double sums[4]);
 /// out[4 i + c] += Σ over `count` point sources {x, y, z, r, g, b} of lobe × (r, g, b) for points [begin, end).
 void sumBright(const PointsView& points, std::size_t begin, std::size_t end, const double* sources, std::size_t count, const FullLobe& lobe, double* out);
 

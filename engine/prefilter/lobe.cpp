@@ -99,8 +99,14 @@ double smoothPart(const Lobe& lobe, const Split& s, double x) {
 }  // namespace
 
 Split splitLobe(const Lobe& lobe, double error, double texels, double outputs) {
+  constexpr double kFewSums = 3e6;  // some milliseconds
+  if (texels * outputs <= kFewSums && lobe.width() > 0.05) {
+    Split s;
+    s.all = true;
+    return s;
+  }
   // Next to a light the dark is a thousandth of the mean, and is to be right too. A Gaussian's bands end so suddenly that more care costs little.
-  const double share = error * (lobe.shape == ReflectionLobe::BlinnPhong ? 0.002 : 0.05);
+  const double share = error * (lobe.shape == ReflectionLobe::BlinnPhong ? 0.002 : 0.005);
   // The kink at the horizon: its bands fall like l^-2.5 for ever. Bright texels are summed apart, so what is left of the source has little in high bands, and the point's own measure would ask for
   // far too many (docs/prefilter.md has the errors).
   const int kink = std::clamp(int(160 * std::pow(1e-4 / error, 0.4)), 32, kMostBands);
@@ -119,7 +125,8 @@ Split splitLobe(const Lobe& lobe, double error, double texels, double outputs) {
   if (lobe.shape == ReflectionLobe::BlinnPhong) {
     // Past x = end there is e^-k of the lobe's integral.
     const double end = 4 / lobe.power * std::log(60 / error);
-    if (lobe.power < 500 || directCost(texels, outputs, end) > cost) return whole;
+    // Sums of floats are good to 4e-7.
+    if (lobe.power < 500 || directCost(texels, outputs, end) > cost || (error < 1e-6 && cost < 1e30)) return whole;
     Split s;
     s.end = end;
     s.c = sixteenthRoot(lobe, end);

@@ -26,6 +26,7 @@ struct Lobe {
 /// pole needs no care).
 struct Split {
   static constexpr int kDegree = 6;
+  bool all = false;                       ///< every texel of the source is summed, in double; nothing else counts
   double end = 0;                         ///< 0: nothing is summed directly
   bool taylor = false;                    ///< the rest is the lobe less the polynomial c of x - end; else the lobe itself, which is the polynomial c of x to the power 16, cut where it is negligible
   std::array<double, kDegree + 1> c{};

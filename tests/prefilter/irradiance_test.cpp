@@ -56,7 +56,7 @@ TEST_CASE("one bright direction: two bands ring below zero, windowed ones do not
   const CubeLevel source = cubeOf(64, [&](const dvec3& d) { return dvec3(glm::dot(d, sun) > edge ? 100 : 0, glm::dot(d, sun) > edge ? 50 : 0.001, 1); });
   prefilter::IrradianceSh sh = prefilter::irradianceOf(source);
   const double peak = prefilter::irradianceAt(sh, sun).x, before = leastOf(sh);
-  CHECK(before < -0.05 * peak);  // -1/16 of the peak's 1 + 2 + 5/4 shares and more
+  CHECK(before < -0.02 * peak);  // of 1 + 2 + 5/4 shares at the peak, on the far side 1 - 2 + 5/4 and less on the way there
   const dvec3 mean = sh[0];
   const double lambda = prefilter::deRing(sh);
   CHECK(lambda > 0);
