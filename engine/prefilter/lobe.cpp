@@ -106,7 +106,7 @@ Split splitLobe(const Lobe& lobe, double error, double texels, double outputs) {
     return s;
   }
   // Next to a light the dark is a thousandth of the mean, and is to be right too. A Gaussian's bands end so suddenly that more care costs little.
-  const double share = error * (lobe.shape == ReflectionLobe::BlinnPhong ? 0.002 : 0.005);
+  const double share = error * (lobe.shape == ReflectionLobe::BlinnPhong ? 0.002 : 0.03);
   // The kink at the horizon: its bands fall like l^-2.5 for ever. Bright texels are summed apart, so what is left of the source has little in high bands, and the point's own measure would ask for
   // far too many (docs/prefilter.md has the errors).
   const int kink = std::clamp(int(160 * std::pow(1e-4 / error, 0.4)), 32, kMostBands);

@@ -78,8 +78,8 @@ std::shared_ptr<const RingGrid> makeGrid(int bands, const GridChoice& choice) {
   std::vector<int> sizes, taps;
   for (int r = 0; r < count; ++r) {
     const double z = nodes.x[std::size_t(r)], s = std::sqrt((1 - z) * (1 + z));
-    // As dense along the ring as rings are; near the poles room for orders that fade there.
-    const int size = smoothSize(int(std::ceil(std::min(2.0 * count * s + 12 * std::sqrt(1 - s), 2.0 * count))));
+    // Nearly as dense along the ring as rings are, so that a kernel of width 7.9 takes 8 taps, one vector; near the poles room for orders that fade there.
+    const int size = smoothSize(int(std::ceil(1.8 * count * s + 12 * std::sqrt(1 - s))));
     const double reach = std::sin(g.reach) / s;
     taps.push_back(reach >= 1 ? size : std::min(size, int(std::floor(std::asin(reach) * size / kPi)) + 1));
     sizes.push_back(size);
@@ -109,12 +109,12 @@ std::shared_ptr<const RingGrid> makeGrid(int bands, const GridChoice& choice) {
 
 }  // namespace
 
-// One vector of eight doubles holds the taps of a ring up to width 7; measured in docs/prefilter.md.
+// One vector of eight doubles holds the taps of a ring up to width 7.9; measured in docs/prefilter.md.
 GridChoice gridChoice(double error) {
   const double digits = -std::log10(error);
   GridChoice c;
-  c.width = std::clamp(std::round(3 + digits), 4.0, 10.0);
-  c.degree = int(c.width) + 6;
+  c.width = std::clamp(std::round(4 + digits), 5.0, 11.0) - 0.1;
+  c.degree = std::min(int(c.width) + 6, KernelPolynomial::kMostDegree);
   return c;
 }
 

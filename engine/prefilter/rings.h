@@ -12,7 +12,7 @@ namespace burnish::prefilter {
 
 /// How wide the kernel is and how fine the grid, for an error.
 struct GridChoice {
-  double width = 7;         ///< rings within the kernel's reach
+  double width = 7.9;       ///< rings within the kernel's reach
   double oversampling = 1.75;  ///< rings over bands + 1
   int degree = 13;          ///< of the kernel's polynomial
   bool operator==(const GridChoice&) const = default;
