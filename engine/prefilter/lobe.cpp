@@ -38,7 +38,7 @@ int rounded(int bands) {
 
 /// Milliseconds on one core with 512-bit vectors, measured roughly (docs/prefilter.md): they only have to rank.
 double transformCost(double bands) { return 2 * (2.1e-7 * bands * bands * bands + 2e-4 * bands * bands); }
-double directCost(double texels, double outputs, double end) { return texels * outputs * end / 2 * 5e-7; }
+double directCost(double texels, double outputs, double end) { return texels * outputs * end / 2 * 1.5e-6; }
 
 }  // namespace
 
