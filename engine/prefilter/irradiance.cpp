@@ -16,19 +16,24 @@ std::array<double, 9> basisAt(const glm::dvec3& d) { return {1, d.y, d.z, d.x, d
 
 // Ramamoorthi and Hanrahan 2001, "An Efficient Representation for Irradiance Environment Maps": eq. 3 (the basis' constants, here squared: they come once from the projection and once from the
 // evaluation), eq. 8 (A_l / π = 1, 2/3, 1/4).
-constexpr double kFactor[9] = {1 / (4 * kPi),          3 / (4 * kPi) * 2 / 3, 3 / (4 * kPi) * 2 / 3,   3 / (4 * kPi) * 2 / 3, 15 / (4 * kPi) / 4,
-                               15 / (4 * kPi) / 4,     5 / (16 * kPi) / 4,    15 / (4 * kPi) / 4,      15 / (16 * kPi) / 4};
+constexpr double kFactor[9] = {1 / (4 * kPi),      3 / (4 * kPi) * 2 / 3, 3 / (4 * kPi) * 2 / 3, 3 / (4 * kPi) * 2 / 3, 15 / (4 * kPi) / 4,
+                               15 / (4 * kPi) / 4, 5 / (16 * kPi) / 4,    15 / (4 * kPi) / 4,    15 / (16 * kPi) / 4};
 
-/// row(i, sums): adds radiance · solid angle · basis of row i to sums. Rows are summed up in their order.
+using Sums = std::array<glm::dvec4, 9>;  ///< radiance, and 1 in the fourth
+
+/// row(i, sums): adds (radiance, 1) · solid angle · basis of row i to sums. Rows are summed up in their order. What the texels' places make of a constant is taken out: it has bands above 0 no more than
+/// a sphere has.
 template <class Row>
 IrradianceSh summed(int rows, int threads, const Row& row) {
-  std::vector<IrradianceSh> parts(std::size_t(rows), IrradianceSh{});
+  std::vector<Sums> parts(std::size_t(rows), Sums{});
   forEachPiece(rows, threads, [&](int i) { row(i, parts[std::size_t(i)]); });
-  IrradianceSh all{};
-  for (const IrradianceSh& part : parts)
+  Sums all{};
+  for (const Sums& part : parts)
     for (std::size_t k = 0; k < 9; ++k) all[k] += part[k];
-  for (std::size_t k = 0; k < 9; ++k) all[k] *= kFactor[k];
-  return all;
+  const glm::dvec3 mean = glm::dvec3(all[0]) / all[0].w;
+  IrradianceSh out{mean};
+  for (std::size_t k = 1; k < 9; ++k) out[k] = (glm::dvec3(all[k]) - mean * all[k].w) * kFactor[k];
+  return out;
 }
 
 /// Least over the sphere of any channel: a grid of directions.
@@ -55,11 +60,11 @@ IrradianceSh windowed(const IrradianceSh& sh, double lambda) {
 IrradianceSh irradianceOf(const CubeLevel& cube, int threads) {
   const std::vector<double> weight = texelSolidAngles(cube.size);
   const std::size_t n = std::size_t(cube.size);
-  return summed(6 * cube.size, threads, [&](int row, IrradianceSh& sums) {
+  return summed(6 * cube.size, threads, [&](int row, Sums& sums) {
     const float* p = cube.texels.data() + 3 * std::size_t(row) * n;
     for (std::size_t x = 0; x < n; ++x, p += 3) {
       const std::array<double, 9> basis = basisAt(texelDirection(cube.size, row / cube.size, int(x), row % cube.size));
-      const glm::dvec3 light = glm::dvec3(p[0], p[1], p[2]) * weight[std::size_t(row % cube.size) * n + x];
+      const glm::dvec4 light = glm::dvec4(p[0], p[1], p[2], 1) * weight[std::size_t(row % cube.size) * n + x];
       for (std::size_t k = 0; k < 9; ++k) sums[k] += light * basis[k];
     }
   });
@@ -73,17 +78,17 @@ IrradianceSh irradianceOf(const Image& latLong, int threads) {
     sine.push_back(std::sin(longitude));
     cosine.push_back(std::cos(longitude));
   }
-  return summed(height, threads, [&](int y, IrradianceSh& sums) {
+  return summed(height, threads, [&](int y, Sums& sums) {
     const double polar = (y + 0.5) / height * kPi, s = std::sin(polar), up = std::cos(polar), solidAngle = 2 * s * std::sin(kPi / 2 / height) * 2 * kPi / width;
     const float* p = latLong.f32() + std::size_t(y) * std::size_t(width) * std::size_t(latLong.channels);
     // Along a row the basis is a polynomial of sine and cosine: six sums make the nine.
-    glm::dvec3 one(0), byS(0), byC(0), bySc(0), byCc(0);
+    glm::dvec4 one(0), byS(0), byC(0), bySc(0), byCc(0);
     for (std::size_t x = 0; x < std::size_t(width); ++x, p += latLong.channels) {
-      const glm::dvec3 light(p[0], p[1], p[2]);
+      const glm::dvec4 light(p[0], p[1], p[2], 1);
       one += light, byS += light * sine[x], byC += light * cosine[x], bySc += light * (sine[x] * cosine[x]), byCc += light * (cosine[x] * cosine[x]);
     }
     // The direction is (s sine, up, -s cosine).
-    const glm::dvec3 values[9] = {one, one * up, -byC * s, byS * s, byS * (s * up), -byC * (s * up), byCc * (3 * s * s) - one, -bySc * (s * s), (one - byCc) * (s * s) - one * (up * up)};
+    const glm::dvec4 values[9] = {one, one * up, -byC * s, byS * s, byS * (s * up), -byC * (s * up), byCc * (3 * s * s) - one, -bySc * (s * s), (one - byCc) * (s * s) - one * (up * up)};
     for (std::size_t k = 0; k < 9; ++k) sums[k] += values[k] * solidAngle;
   });
 }
