@@ -16,7 +16,9 @@
 #include <string>
 #include <vector>
 
+#include "prefilter/lobe.h"
 #include "prefilter/oracle.h"
+#include "prefilter/source.h"
 
 using namespace burnish;
 using namespace burnish::test;
@@ -52,38 +54,21 @@ CubeLevel sourceOf(int size) {
 
 const char* nameOf(ReflectionLobe lobe) { return lobe == ReflectionLobe::Ggx ? "ggx" : "blinn-phong"; }
 
-/// The direct sum over all texels of a level, single precision, as plainly as a compiler vectorizes it: CPU ms for the whole level from a sample of its texels.
-double directMs(const CubeLevel& level, const Points& source, ReflectionLobe lobe) {
-  const int texels = int(level.texels.size() / 3), samples = std::min(texels, 24);
-  const std::size_t n = source.direction.size();
-  std::vector<float> x(n), y(n), z(n), w(n), r(n), g(n), b(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    x[i] = float(source.direction[i].x), y[i] = float(source.direction[i].y), z[i] = float(source.direction[i].z), w[i] = float(source.solidAngle[i]);
-    r[i] = float(source.light[i].x), g[i] = float(source.light[i].y), b[i] = float(source.light[i].z);
-  }
-  const float alpha2 = float(std::pow(level.roughness, 4)), halfPower = 1 / alpha2 - 1;
-  float sink = 0;
+/// The direct sum over all texels of the source with the engine's own vectors, in double: CPU ms for a whole level, from 64 of its texels.
+double directMs(const CubeLevel& level, const prefilter::Source& source, ReflectionLobe shape) {
+  const int texels = int(level.texels.size() / 3), samples = std::min(texels, 64);
+  const prefilter::TexelsView& all = source.texelArrays(1);
+  const prefilter::Lobe lobe = prefilter::Lobe::of(shape, level.roughness);
+  const prefilter::FullLobe full{shape == ReflectionLobe::Ggx, lobe.power / 2, (1 / lobe.alpha2 - 1) / 2, lobe.power < 100 || shape == ReflectionLobe::Ggx ? 1 : std::min(1.0, 4 / lobe.power * 46)};
+  double sums[4] = {};
   const double start = cpuMs();
   for (int k = 0; k < samples; ++k) {
     const std::size_t t = std::size_t(k) * std::size_t(texels) / std::size_t(samples), face = std::size_t(level.size) * std::size_t(level.size);
-    const glm::vec3 d(centreOf(level.size, int(t / face), int(t % std::size_t(level.size)), int(t / std::size_t(level.size) % std::size_t(level.size))));
-    float sums[4] = {};
-    for (std::size_t i = 0; i < n; ++i) {
-      const float c = x[i] * d.x + y[i] * d.y + z[i] * d.z;
-      if (c <= 0) continue;
-      float weight = 0;
-      if (lobe == ReflectionLobe::Ggx) {
-        const float q = (1 - c) / 2 + alpha2 * (1 + c) / 2;
-        weight = alpha2 * alpha2 * c / (q * q) * w[i];
-      } else
-        weight = std::pow((1 + c) / 2, halfPower) * c * w[i];
-      sums[0] += r[i] * weight, sums[1] += g[i] * weight, sums[2] += b[i] * weight, sums[3] += weight;
-    }
-    sink += sums[0] / sums[3];
+    const glm::dvec3 d = prefilter::aboutY(centreOf(level.size, int(t / face), int(t % std::size_t(level.size)), int(t / std::size_t(level.size) % std::size_t(level.size))));
+    const double direction[3] = {d.x, d.y, d.z};
+    prefilter::sumTexels(all, 0, source.texels(), direction, full, sums);
   }
-  const double spent = (cpuMs() - start) / samples * texels;
-  if (sink == -1) std::puts("");  // so that the loop is kept
-  return spent;
+  return (cpuMs() - start) / samples * texels;
 }
 
 struct Row {
@@ -120,7 +105,7 @@ int main(int argc, char** argv) {
       const int size = int(number);
       if (lobes != "both" && lobes != nameOf(lobe)) continue;
       const CubeLevel source = sourceOf(size);
-      const Points points = samples || direct ? pointsOf(source) : Points{};
+      const Points points = samples ? pointsOf(source) : Points{};
       double directSum = 0;
       for (const double error : numbers(errors)) {
         PrefilterOptions o;
@@ -143,7 +128,7 @@ int main(int argc, char** argv) {
           else row.warm = std::min(row.warm, report.cpuMs);
         }
         if (direct && directSum == 0)
-          for (std::size_t k = 1; k < cube.levels.size(); ++k) directSum += directMs(cube.levels[k], points, lobe);
+          for (std::size_t k = 1; k < cube.levels.size(); ++k) directSum += directMs(cube.levels[k], *prefilter::makeSource(source, 1), lobe);
         row.direct = directSum;
         if (samples)
           for (std::size_t k = 1; k < cube.levels.size(); ++k) {
