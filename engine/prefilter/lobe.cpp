@@ -29,11 +29,11 @@ double energy(const std::vector<double>& b) {
   return all;
 }
 
-/// Few sizes, so that tables of a ring grid serve several levels: 2^n and 3/4, 5/8, 7/8 of it.
+/// Few sizes, so that tables of a ring grid serve several levels: steps of a sixteenth of a power of two.
 int rounded(int bands) {
-  for (int top = 32;; top *= 2)
-    for (const int eighths : {5, 6, 7, 8})
-      if (top / 8 * eighths >= bands) return top / 8 * eighths;
+  int step = 4;
+  while (16 * step < bands) step *= 2;
+  return std::max((bands + step - 1) / step * step, 20);
 }
 
 /// Milliseconds on one core with 512-bit vectors, measured roughly (docs/prefilter.md): they only have to rank.
