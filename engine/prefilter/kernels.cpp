@@ -59,14 +59,13 @@ HWY_INLINE void spreadWith(const PointsView& p, const double* values, std::size_
   const Doubles d;
   double* HWY_RESTRICT base = row + kRingPad;
   const Vec uScale = hn::Set(d, 1 - kernel.scale), zScale = hn::Set(d, kernel.scale * ring.z);
+  const bool oneVector = ring.taps <= int(kLanes) && ring.taps < ring.size;
+  const double size = ring.size, halfTaps = 0.5 * ring.taps;
   for (std::size_t j = begin; j < end; ++j) {
     const Vec x = hn::Set(d, p.x[j]), y = hn::Set(d, p.y[j]), u0 = hn::MulAdd(hn::Set(d, p.z[j]), zScale, uScale);
     const double* v = values + 4 * j;
     const Vec v0 = hn::Set(d, v[0]), v1 = hn::Set(d, v[1]), v2 = hn::Set(d, v[2]), v3 = hn::Set(d, v[3]);
-    const int k0 = firstTap(ring, p.turn[j]);
-    for (int t = 0; t < ring.taps; t += int(kLanes)) {
-      const Vec w = weightsAt<kDegree>(ring, kernel, k0 + t, t, x, y, u0);
-      double* q = base + k0 + t;
+    const auto add = [&](Vec w, double* q) HWY_ATTR {
       hn::StoreU(hn::MulAdd(w, v0, hn::LoadU(d, q)), d, q);
       q += stride;
       hn::StoreU(hn::MulAdd(w, v1, hn::LoadU(d, q)), d, q);
@@ -74,7 +73,15 @@ HWY_INLINE void spreadWith(const PointsView& p, const double* values, std::size_
       hn::StoreU(hn::MulAdd(w, v2, hn::LoadU(d, q)), d, q);
       q += stride;
       hn::StoreU(hn::MulAdd(w, v3, hn::LoadU(d, q)), d, q);
+    };
+    if (oneVector) {
+      const int k = int(std::ceil(double(p.turn[j]) * size - halfTaps));
+      const Vec u = hn::MulAdd(x, hn::LoadU(d, ring.cosine + k), hn::MulAdd(y, hn::LoadU(d, ring.sine + k), u0));
+      add(evaluate<kDegree>(kernel, hn::Max(u, hn::Zero(d))), base + k);
+      continue;
     }
+    const int k0 = firstTap(ring, p.turn[j]);
+    for (int t = 0; t < ring.taps; t += int(kLanes)) add(weightsAt<kDegree>(ring, kernel, k0 + t, t, x, y, u0), base + k0 + t);
   }
 }
 
