@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <cstring>
 #include <ctime>
+#include <filesystem>
 #include <fstream>
 #include <random>
 #include <sstream>
@@ -143,6 +144,8 @@ int main(int argc, char** argv) {
       }
     }
   if (json.empty()) return 0;
+  std::error_code ignored;  // the stream says so if it cannot be written
+  std::filesystem::create_directories(std::filesystem::path(json).parent_path(), ignored);
   std::ofstream out(json);
   out << "[\n";
   for (std::size_t i = 0; i < rows.size(); ++i) {
