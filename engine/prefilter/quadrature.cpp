@@ -22,19 +22,20 @@ std::pair<double, double> legendre(int n, double x) {
 }  // namespace
 
 GaussNodes gaussNodes(int n) {
-  GaussNodes nodes;
-  for (int i = 0; i < n; ++i) {
-    double x = n == 1 ? 0 : std::cos(kPi * (i + 0.75) / (n + 0.5));  // Newton from Tricomi's estimate
-    double slope = 1;
+  GaussNodes nodes{std::vector<double>(std::size_t(n)), std::vector<double>(std::size_t(n))};
+  for (int i = 0; 2 * i < n; ++i) {
+    double x = 2 * i + 1 == n ? 0 : std::cos(kPi * (i + 0.75) / (n + 0.5)), slope = 1;  // Newton from Tricomi's estimate
     for (int step = 0; step < 8; ++step) {
       const auto [p, derivative] = legendre(n, x);
       slope = derivative;
+      if (n == 1) break;
       x -= p / derivative;
       if (std::abs(p / derivative) < 1e-15) break;
     }
-    slope = legendre(n, x).second;
-    nodes.x.push_back(x);
-    nodes.weight.push_back(2 / ((1 - x * x) * slope * slope));
+    const double weight = 2 / ((1 - x * x) * slope * slope);
+    nodes.x[std::size_t(i)] = x;
+    nodes.x[std::size_t(n - 1 - i)] = -x;
+    nodes.weight[std::size_t(i)] = nodes.weight[std::size_t(n - 1 - i)] = weight;
   }
   return nodes;
 }
