@@ -1,12 +1,15 @@
-// Pictures on the CPU: the container, the decoding interface and the two writers.
+// Pictures and cubemaps on the CPU: containers, the decoding interface, the writers, and the filter that turns an environment into levels.
 #pragma once
 #include <burnish/result.h>
 
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <span>
+#include <vector>
 
 namespace burnish {
 
@@ -70,5 +73,51 @@ BURNISH_API std::unique_ptr<ImageDecoder> makeDecoderPool(DecoderPoolOptions opt
 BURNISH_API Result<void> writePng(const std::filesystem::path& file, const Image& image);
 /// Writes a half or float OpenEXR (1 to 4 channels, linear), the same way. `F16` and `F32` images only.
 BURNISH_API Result<void> writeExr(const std::filesystem::path& file, const Image& image);
+
+/// One level of a cubemap: six square faces in OpenGL's order (+X -X +Y -Y +Z -Z), rows as OpenGL stores them (OpenGL 4.5 specification, table 8.19), linear RGB.
+struct CubeLevel {
+  int size = 0;               ///< texels along an edge
+  double roughness = 0;       ///< what the level was filtered for; 0: the environment itself
+  std::vector<float> texels;  ///< 3 · 6 · size²
+};
+
+/// The specular lobe that the levels of a cubemap match (docs/shading.md, section 5).
+enum class ReflectionLobe : std::uint8_t { BlinnPhong, Ggx };
+
+/// A cubemap with its levels, the largest first.
+struct Cubemap {
+  std::vector<CubeLevel> levels;
+  std::optional<ReflectionLobe> lobe;  ///< none: not filtered, each level the mean of the one before
+};
+
+struct PrefilterOptions {
+  ReflectionLobe lobe = ReflectionLobe::BlinnPhong;
+  int size = 256;       ///< texels along an edge of level 0; a power of two, at least 16
+  int levels = 0;       ///< 0: down to faces of 8²; more go down to 1² at most
+  double error = 1e-4;  ///< allowed rms error of a level over its rms value, 1e-7 to 0.1
+  int threads = 0;      ///< 0: one for each core; the result does not depend on it
+  std::function<void(double share)> progress;  ///< called with 0 to 1 from the calling thread
+};
+
+/// What the filter did, for each level.
+struct PrefilterReport {
+  struct Level {
+    int size = 0;
+    double roughness = 0;
+    double power = 0;  ///< of the Blinn-Phong lobe; infinite at roughness 0
+    int bands = 0;     ///< spherical-harmonic bands summed; 0 where the sum is direct
+    int samples = 0;   ///< texels of the source summed for an output texel, at most; 0 where bands are
+    double ms = 0;     ///< wall time
+  };
+  std::vector<Level> levels;
+  double wallMs = 0, cpuMs = 0;  ///< the filter alone
+  double tablesMs = 0;           ///< of it, CPU time for tables that later calls find made
+};
+
+/// Levels of an environment, each the integral over the lobe of its roughness: L_k(R) = ∫ L w / ∫ w. Texels of the source count as point samples at their centres, weighted by their exact
+/// solid angles. `source`: one level, or a lat-long picture (F32, 3 or 4 channels, its centre column toward -Z, its first row the zenith). Values that are not finite or negative are an
+/// error that names the first of them.
+BURNISH_API Result<Cubemap> prefilterCubemap(const CubeLevel& source, const PrefilterOptions& options = {}, PrefilterReport* report = nullptr);
+BURNISH_API Result<Cubemap> prefilterCubemap(const Image& latLong, const PrefilterOptions& options = {}, PrefilterReport* report = nullptr);
 
 }  // namespace burnish
