@@ -118,8 +118,8 @@ struct PrefilterReport {
 /// Levels of an environment, each the integral over the lobe of its roughness: L_k(R) = ∫ L w / ∫ w. Texels of the source count as point samples at their centres, weighted by their exact
 /// solid angles. `source`: one level, or a lat-long picture (F32, 3 or 4 channels, its centre column toward -Z, its first row the zenith). Values that are not finite or negative are an
 /// error that names the first of them.
-BURNISH_API Result<Cubemap> prefilter(const CubeLevel& source, const PrefilterOptions& options = {}, PrefilterReport* report = nullptr);
-BURNISH_API Result<Cubemap> prefilter(const Image& latLong, const PrefilterOptions& options = {}, PrefilterReport* report = nullptr);
+BURNISH_API Result<Cubemap> prefilterCubemap(const CubeLevel& source, const PrefilterOptions& options = {}, PrefilterReport* report = nullptr);
+BURNISH_API Result<Cubemap> prefilterCubemap(const Image& latLong, const PrefilterOptions& options = {}, PrefilterReport* report = nullptr);
 
 /// What checkPrefilter found of one level: the filtered texels against a sum in double over every texel of the source.
 struct PrefilterCheck {
@@ -147,7 +147,7 @@ struct PrefilterCheckOptions {
   std::function<void(double share)> progress;  ///< called with 0 to 1 from the calling thread
 };
 
-/// Sums random texels of each level again, by brute force in double: an independent judge of prefilter(), slow. `cubemap` needs a lobe; `source` as for prefilter().
+/// Sums random texels of each level again, by brute force in double: an independent judge of prefilterCubemap(), slow. `cubemap` needs a lobe; `source` as for prefilterCubemap().
 BURNISH_API Result<PrefilterCheck> checkPrefilter(const CubeLevel& source, const Cubemap& cubemap, const PrefilterCheckOptions& options = {});
 BURNISH_API Result<PrefilterCheck> checkPrefilter(const Image& latLong, const Cubemap& cubemap, const PrefilterCheckOptions& options = {});
 
