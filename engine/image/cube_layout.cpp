@@ -60,10 +60,10 @@ std::string_view layoutName(PictureLayout layout) {
   return kNames[static_cast<std::size_t>(layout)];
 }
 
-Image linearRgb(const Image& picture) {
-  Image wide = toLinear(picture);
-  if (wide.channels == 3) return wide;
-  return wide.channels < 3 ? extractChannels(wide, {0, 0, 0}) : extractChannels(wide, {0, 1, 2});
+Image linearRgb(Image picture) {
+  if (picture.type != PixelType::F32) picture = toLinear(picture);
+  if (picture.channels == 3) return picture;  // large pictures are mostly this: nothing is copied
+  return picture.channels < 3 ? extractChannels(picture, {0, 0, 0}) : extractChannels(picture, {0, 1, 2});
 }
 
 void copyFace(const Image& rgb, int x, int y, bool turned, CubeLevel& level, std::size_t face) {

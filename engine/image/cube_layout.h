@@ -20,7 +20,7 @@ std::optional<PictureLayout> pictureLayout(int width, int height);
 std::string_view layoutName(PictureLayout layout);
 
 /// F32, three channels, linear: 8- and 16-bit pictures are sRGB; grey becomes RGB, alpha is left out.
-Image linearRgb(const Image& picture);
+Image linearRgb(Image picture);
 
 /// The cube of a picture of linearRgb that is no lat-long one.
 CubeLevel cubeFromPicture(const Image& rgb, PictureLayout layout);

@@ -38,7 +38,7 @@ class Reader {
   [[nodiscard]] std::uint64_t mostFileBytes() const { return options_.limits.maxBytes > ~std::uint64_t(0) / 2 ? options_.limits.maxBytes : 2 * options_.limits.maxBytes; }
   Result<Picture> decode(std::span<const std::byte> bytes, const std::string& name);
   Result<EnvironmentFile> fromCubeFile(Result<CubeFile> file, const std::string& name);
-  Result<EnvironmentFile> fromPicture(const Picture& picture, const std::string& name);
+  Result<EnvironmentFile> fromPicture(Picture picture, const std::string& name);
   Result<EnvironmentFile> fromStack(const Picture& picture, const std::string& name);
   Result<EnvironmentFile> fromFolder(const fs::path& folder);
   Result<CubeLevel> readLevel(std::span<const fs::path> faces, Metadata* texts);
@@ -59,7 +59,7 @@ Result<Reader::Picture> Reader::decode(std::span<const std::byte> bytes, const s
   if (!image) return fail(image.error());
   if (image->width < 1 || image->height < 1 || image->channels < 1) return fail(name, "the picture has no pixels", "export it again");
   picture.was8 = image->type == PixelType::U8 || image->type == PixelType::U16;
-  picture.rgb = linearRgb(*image);
+  picture.rgb = linearRgb(std::move(*image));
   return picture;
 }
 
@@ -76,7 +76,7 @@ Result<EnvironmentFile> Reader::fromStack(const Picture& picture, const std::str
   return EnvironmentFile{std::move(*cube), {}, "OpenEXR, levels stacked in one picture", std::string(valueOf(picture.texts, "software"))};
 }
 
-Result<EnvironmentFile> Reader::fromPicture(const Picture& picture, const std::string& name) {
+Result<EnvironmentFile> Reader::fromPicture(Picture picture, const std::string& name) {
   if (valueOf(picture.texts, "BurnishLayout") == "levels") return fromStack(picture, name);
   const int width = picture.rgb.width, height = picture.rgb.height;
   const auto layout = pictureLayout(width, height);
@@ -85,7 +85,7 @@ Result<EnvironmentFile> Reader::fromPicture(const Picture& picture, const std::s
   EnvironmentFile out;
   out.layout = fmt::format("{} of {} x {}{}", layoutName(*layout), width, height, picture.was8 ? ", sRGB" : "");
   if (*layout == PictureLayout::LatLong) {
-    out.latLong = picture.rgb;
+    out.latLong = std::move(picture.rgb);
     return out;
   }
   if (crossHasContent(picture.rgb, *layout)) report_.warn(name, fmt::format("is taken for a {} because of its shape, but its corners, which belong to no face, are not empty", layoutName(*layout)));
@@ -161,16 +161,17 @@ Result<EnvironmentFile> Reader::read(const fs::path& file) {
     if (!faces) return fail(faces.error());
     return readFaces(*faces);
   }
-  const auto bytes = core::readFile(file, mostFileBytes());
+  auto bytes = core::readFile(file, mostFileBytes());
   if (!bytes) return fail(bytes.error());
   const std::string name = file.string();
   if (isDds(*bytes)) return fromCubeFile(decodeDds(*bytes, name, options_.limits), name);
   if (isKtx2(*bytes)) return fromCubeFile(decodeKtx2(*bytes, name, options_.limits), name);
   if (!pictureFormat(*bytes))
     return fail(name, bytes->empty() ? "is empty" : "is no DDS, KTX2, Radiance HDR, OpenEXR, PNG or JPEG file", "convert it to one of these formats");
-  const auto picture = decode(*bytes, name);
+  auto picture = decode(*bytes, name);
   if (!picture) return fail(picture.error());
-  return fromPicture(*picture, name);
+  bytes->clear(), bytes->shrink_to_fit();
+  return fromPicture(std::move(*picture), name);
 }
 
 struct Mended {

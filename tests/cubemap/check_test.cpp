@@ -148,3 +148,28 @@ TEST_CASE("The check does not depend on threads, and tells how far it is", "[cub
   std::fill(night.texels.begin(), night.texels.end(), 0.0f);
   CHECK(checkPrefilter(night, black)->within());
 }
+
+TEST_CASE("Irradiance in spherical harmonics is exact for light of bands 0 to 2", "[cubemap][sh]") {
+  // Radiance 2 + y - 3 z + 0.5 x + xy + (3z² - 1)/4: irradiance over π keeps band 0, 2/3 of band 1 and 1/4 of band 2.
+  const auto radiance = [](const Vec& d) { return 4 + d[1] - 3 * d[2] + 0.5 * d[0] + d[0] * d[1] + (3 * d[2] * d[2] - 1) / 4; };
+  const double expected[9] = {4, 2.0 / 3, -2, 1.0 / 3, 0.25, 0, 1.0 / 16, 0, 0};
+  CubeLevel cube;
+  cube.size = 64;
+  for (std::size_t face = 0; face < 6; ++face)
+    for (int y = 0; y < 64; ++y)
+      for (int x = 0; x < 64; ++x)
+        for (int c = 1; c <= 3; ++c) cube.texels.push_back(static_cast<float>(c * radiance(faceDirection(face, centre(x, 64), centre(y, 64)))));
+  Image picture = makeImage(256, 128, 4, PixelType::F32);
+  for (int y = 0; y < 128; ++y)
+    for (int x = 0; x < 256; ++x) {
+      const double theta = (y + 0.5) / 128 * M_PI, a = ((x + 0.5) / 256 - 0.5) * 2 * M_PI;
+      for (std::size_t c = 0; c < 4; ++c) picture.f32()[(std::size_t(y) * 256 + std::size_t(x)) * 4 + c] = static_cast<float>(double(c + 1) * radiance({std::sin(theta) * std::sin(a), std::cos(theta), -std::sin(theta) * std::cos(a)}));
+    }
+  for (const auto& sh : {irradianceSh(cube), irradianceSh(picture)}) {
+    REQUIRE(sh);
+    for (std::size_t i = 0; i < 9; ++i)
+      for (std::size_t c = 0; c < 3; ++c) CHECK((*sh)[i][c] == Approx(expected[i] * double(c + 1)).margin(2e-3));
+  }
+  CHECK_FALSE(irradianceSh(CubeLevel{}));
+  CHECK_FALSE(irradianceSh(Image{}));
+}

@@ -436,7 +436,7 @@ class Prefilter(Program):
         self.assertGreater(face[0][4 * 8 + 1], face[15][4 * 8 + 1])
 
     def test_every_output_is_an_input_with_the_same_texels(self):
-        self.sky.write_bytes(hdr_text(64, 32, lambda a, p: (2 + a, 1 + p, 3)))
+        self.sky.write_bytes(hdr_text(64, 32, lambda a, p: (4 + a, 1 + p, 3)))
         for name in "a.dds", "a.exr", "folder", "a.ktx2":
             self.prefilter(name, "--levels", "2")
             result = self.prefilter("again.ktx2", "--levels", "2", source=self.out / name)
@@ -498,7 +498,7 @@ class Prefilter(Program):
         for c, light in enumerate((1, 0.5, 0.25)):
             self.assertAlmostEqual(sh["coefficients"][0][c], light, delta=1e-4)
             for i in range(1, 9):
-                self.assertAlmostEqual(sh["coefficients"][i][c], 0, delta=1e-4)
+                self.assertAlmostEqual(sh["coefficients"][i][c], 0, delta=1e-3)  # of 16 rows
 
     def test_usage(self):
         self.bad(2, "prefilter", says="IN")
@@ -559,14 +559,14 @@ class Prefilter(Program):
         before = old.read_bytes()
         for output in self.folder / "no/such/a.dds", self.sky / "a.dds", pathlib.Path("/proc/none.ktx2"), self.folder / "no/folder", pathlib.Path("/proc/none"):
             self.bad(1, "prefilter", self.sky, "-o", output, "--size", "16", says=str(output))
-        self.bad(1, "prefilter", self.sky, "-o", self.folder, "--size", "16", says="scene.gltf")
+        self.bad(1, "prefilter", self.sky, "-o", self.folder, "--size", "16", says="none of the files to be replaced")
         self.bad(1, "prefilter", self.sky, "-o", old, "--size", "16", "--json", self.folder / "no/a.json", says="a.json")
 
         def small():
             signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
             resource.setrlimit(resource.RLIMIT_FSIZE, (64, 64))
         for output in old, self.out / "new.dds", self.out / "new.exr", self.out / "new":
-            result = self.run_it("prefilter", self.sky, "-o", output, "--size", "16", "--lobe", "ggx", preexec_fn=small)
+            result = self.run_it("prefilter", old, "-o", output, "--size", "16", "--lobe", "ggx", preexec_fn=small)  # no picture: its decoder needs shared memory
             self.assertEqual(result.returncode, 1, result.stderr)
             self.assertIn("file size limit", result.stderr)
         self.assertEqual(old.read_bytes(), before)

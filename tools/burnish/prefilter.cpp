@@ -103,6 +103,19 @@ Json toJson(const PrefilterArguments& arguments, const Outcome& outcome) {
   return out;
 }
 
+/// What --sh writes.
+Result<Json> shJson(const Outcome& outcome) {
+  const auto sh = outcome.source.isCube() ? burnish::irradianceSh(outcome.source.cube.levels[0]) : burnish::irradianceSh(outcome.source.latLong);
+  if (!sh) return fail(sh.error());
+  Json out;
+  out["schema_version"] = 1;
+  out["quantity"] = "irradiance / pi";
+  out["basis"] = {"1", "y", "z", "x", "x*y", "y*z", "3*z*z-1", "x*z", "x*x-y*y"};
+  out["coefficients"] = Json::array();
+  for (const auto& rgb : *sh) out["coefficients"].push_back(rgb);
+  return out;
+}
+
 void print(const PrefilterArguments& arguments, const Outcome& outcome) {
   fmt::print("{}: {}\n", shown(arguments.inputs[0]), shown(outcome.source.layout));
   fmt::print("  {:>5} {:>5} {:>9} {:>12} {:>16} {:>9}\n", "level", "size", "roughness", "power", "sum over", "ms");
@@ -136,13 +149,19 @@ int run(const PrefilterArguments& arguments) {
     progress.stage("writing " + arguments.output);
     written = saveCubemap(arguments.output, outcome.cubemap, arguments.type(), outcome.warnings);
   }
+  if (within && written && !arguments.sh.empty()) {
+    const auto sh = shJson(outcome);
+    if (!sh) return progress.finish(), printError(sh.error());
+    written = writeJson(arguments.sh, *sh);
+  }
   if (written && !arguments.json.empty()) written = writeJson(arguments.json, toJson(arguments, outcome));
   progress.finish();
   printWarnings(warningTexts(outcome.warnings));
   if (!written) return printError(written.error());
-  if (arguments.json != "-") print(arguments, outcome);
+  const bool quiet = arguments.json == "-" || arguments.sh == "-";
+  if (!quiet) print(arguments, outcome);
   if (!within) return printError({arguments.output, "is not written: the check found errors above its bounds", "ask for them with a larger --error, or report it"});
-  if (arguments.json != "-") fmt::print("{} ({}, {} levels)\n", shown(arguments.output), arguments.type() == PixelType::F16 ? "half" : "float", outcome.cubemap.levels.size());
+  if (!quiet) fmt::print("{} ({}, {} levels)\n", shown(arguments.output), arguments.type() == PixelType::F16 ? "half" : "float", outcome.cubemap.levels.size());
   return kOk;
 }
 
@@ -161,6 +180,13 @@ void checkSize(const std::string& text, burnish::PrefilterOptions& options) {
   options.size = int(value);
 }
 
+void checkError(const std::string& text, burnish::PrefilterOptions& options) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (text.empty() || *end || !(value >= 1e-7 && value <= 0.1)) throw CLI::ValidationError("--error", fmt::format("'{}' is not an error: give a number from 1e-7 to 0.1", text));
+  options.error = value;
+}
+
 void addOutputs(CLI::App& app, PrefilterArguments& arguments) {
   app.add_option_function<std::string>(
          "-o,--output",
@@ -173,6 +199,7 @@ void addOutputs(CLI::App& app, PrefilterArguments& arguments) {
       ->required();
   CLI::Option* half = app.add_flag("--half", arguments.half, "write half floats (the default); values above 65504 are held there, with a warning");
   app.add_flag("--float", arguments.whole, "write floats")->excludes(half);
+  app.add_option("--sh", arguments.sh, "write the source's irradiance in spherical harmonics (L2) as JSON (- for standard output)")->type_name("FILE");
   app.add_option("--json", arguments.json, "write levels, times, errors and warnings as JSON (- for standard output)")->type_name("FILE");
 }
 
@@ -190,7 +217,7 @@ Command addPrefilter(CLI::App& program) {
   addChoice(*app, "--lobe", {kLobes[0].data(), kLobes[1].data()}, [&options](std::size_t i) { options.lobe = burnish::ReflectionLobe(i); }, "what the levels match (blinn-phong)");
   app->add_option_function<std::string>("--size", [&options](const std::string& text) { checkSize(text, options); }, "texels along an edge of level 0 (256)")->type_name("N");
   app->add_option("--levels", options.levels, "how many levels; without: down to faces of 8x8")->type_name("K")->check(CLI::Range(1, 13));
-  app->add_option("--error", options.error, "rms error of a level over its rms value that is allowed (1e-4)")->type_name("E")->check(CLI::Range(1e-7, 0.1));
+  app->add_option_function<std::string>("--error", [&options](const std::string& text) { checkError(text, options); }, "rms error of a level over its rms value that is allowed (1e-4)")->type_name("E");
   app->add_option("--threads", options.threads, "at most N threads; the result is the same")->type_name("N")->check(CLI::Range(1, 1024));
   app->add_flag("--check", arguments->check, "sum random texels of every level again, in double; exit code 1 and no file where the error is above --error (rms) or ten times that (worst texel)");
   app->footer(

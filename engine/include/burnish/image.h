@@ -2,6 +2,7 @@
 #pragma once
 #include <burnish/result.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -120,6 +121,13 @@ struct PrefilterReport {
 /// error that names the first of them.
 BURNISH_API Result<Cubemap> prefilterCubemap(const CubeLevel& source, const PrefilterOptions& options = {}, PrefilterReport* report = nullptr);
 BURNISH_API Result<Cubemap> prefilterCubemap(const Image& latLong, const PrefilterOptions& options = {}, PrefilterReport* report = nullptr);
+
+/// Irradiance over π in a direction n, as spherical harmonics up to band 2 with every constant folded in: Σ coefficient[i] · basis[i], the basis 1, y, z, x, xy, yz, 3z² - 1, xz, x² - y² of n,
+/// in the order (0,0) (1,-1) (1,0) (1,1) (2,-2) (2,-1) (2,0) (2,1) (2,2) (Ramamoorthi and Hanrahan 2001). RGB, in the source's unit.
+using IrradianceSh = std::array<std::array<double, 3>, 9>;
+/// `source` as for prefilterCubemap(). Values must be finite.
+BURNISH_API Result<IrradianceSh> irradianceSh(const CubeLevel& source);
+BURNISH_API Result<IrradianceSh> irradianceSh(const Image& latLong);
 
 /// What checkPrefilter found of one level: the filtered texels against a sum in double over every texel of the source.
 struct PrefilterCheck {
