@@ -498,7 +498,7 @@ class Prefilter(Program):
         for c, light in enumerate((1, 0.5, 0.25)):
             self.assertAlmostEqual(sh["coefficients"][0][c], light, delta=1e-4)
             for i in range(1, 9):
-                self.assertAlmostEqual(sh["coefficients"][i][c], 0, delta=1e-3)  # of 16 rows
+                self.assertAlmostEqual(sh["coefficients"][i][c], 0, delta=5e-3)  # texels are points: 16 rows are this far from a sphere
 
     def test_usage(self):
         self.bad(2, "prefilter", says="IN")
