@@ -4,6 +4,8 @@
 
 #include "cube_fixture.h"
 #include "image/cube_file.h"
+#include "image/encode.h"
+#include "image/picture_header.h"
 
 using namespace cube_test;
 
@@ -114,4 +116,21 @@ TEST_CASE("Limits hold before anything is read", "[cubemap][hostile]") {
   CHECK(decode(file, limits).error().what.find("bytes decoded") != std::string::npos);
   limits.maxBytes += 1;
   CHECK(decode(file, limits));
+}
+
+TEST_CASE("Texts of a damaged OpenEXR header are those of the file, or none", "[cubemap][hostile]") {
+  const std::vector<std::pair<std::string, std::string>> attributes = {{"BurnishLobe", "ggx"}, {"BurnishRoughness", "0 0.5"}};
+  const auto file = image::encodeExr(makeImage(4, 2, 3, PixelType::F16), "a", attributes).value();
+  CHECK(image::valueOf(image::exrTexts(file), "BurnishRoughness") == "0 0.5");
+  CHECK(image::exrTexts({}).empty());
+  for (std::size_t n = 0; n < file.size(); ++n) {
+    const std::vector<std::byte> cut(file.begin(), file.begin() + static_cast<std::ptrdiff_t>(n));
+    for (const auto& [key, value] : image::exrTexts(cut)) REQUIRE(key.size() + value.size() <= n);
+  }
+  std::mt19937 random(7);
+  for (int round = 0; round < 20000; ++round) {
+    std::vector<std::byte> changed = file;
+    for (unsigned flips = 1 + random() % 4; flips > 0; --flips) changed[random() % 400] ^= static_cast<std::byte>(1u << random() % 8);
+    for (const auto& [key, value] : image::exrTexts(changed)) REQUIRE(key.size() + value.size() <= changed.size());
+  }
 }
