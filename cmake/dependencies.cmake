@@ -7,6 +7,8 @@ find_package(PNG REQUIRED)
 find_package(OpenEXR REQUIRED)
 find_package(glfw3 REQUIRED)
 find_package(Threads REQUIRED)
+find_package(HWY REQUIRED CONFIG)
+find_path(KISSFFT_INCLUDE_DIR kissfft/kissfft.hh REQUIRED)  # header only
 
 # What the public headers include.
 add_library(burnish_public_deps INTERFACE)

@@ -38,11 +38,12 @@ Result<gl::Texture> uploadCube(gl::Device& device, const prefilter::EnvironmentL
                                   "environment cube");
   if (!cube) return cube;
   for (std::size_t k = 0; k < light.levels.size(); ++k) {
-    const prefilter::Cube& level = light.levels[k];
+    const CubeLevel& level = light.levels[k];
     const std::size_t count = std::size_t(level.size) * std::size_t(level.size);
     std::vector<glm::vec4> face(count);
     for (int f = 0; f < 6; ++f) {
-      for (std::size_t i = 0; i < count; ++i) face[i] = glm::vec4(level.texels[std::size_t(f) * count + i], 1);
+      const float* texel = level.texels.data() + 3 * std::size_t(f) * count;
+      for (std::size_t i = 0; i < count; ++i, texel += 3) face[i] = glm::vec4(texel[0], texel[1], texel[2], 1);
       cube->upload(int(k), face.data(), f, GL_RGBA, GL_FLOAT);
     }
   }
@@ -71,7 +72,9 @@ Result<const GpuEnvironment*> GpuScene::environment(const Scene& scene, Environm
   if (!e.map.empty() && (e.map.type != PixelType::F32 || e.map.channels < 3 || e.map.data.size() != e.map.byteSize()))
     return fail("environment", "the map is not a float picture with 3 or 4 channels", "load it with loadEnvironment");
   const Image picture = mended(e, report);
-  const prefilter::EnvironmentLight light = prefilter::prefilterEnvironment(picture, e.map.empty() ? 16 : 256);
+  auto filtered = prefilter::prefilterEnvironment(picture, e.map.empty() ? 16 : 256);
+  if (!filtered) return fail(filtered.error());
+  const prefilter::EnvironmentLight& light = *filtered;
   auto made = std::make_unique<GpuEnvironment>();
   if (wants.cube) {
     auto cube = uploadCube(device_, light);
