@@ -170,6 +170,16 @@ TEST_CASE("Irradiance in spherical harmonics is exact for light of bands 0 to 2"
     for (std::size_t i = 0; i < 9; ++i)
       for (std::size_t c = 0; c < 3; ++c) CHECK((*sh)[i][c] == Approx(expected[i] * double(c + 1)).margin(2e-3));
   }
+  // A lone lamp: without de-ringing the far side is negative, and band 0 stays.
+  CubeLevel lamp = cube;
+  std::fill(lamp.texels.begin(), lamp.texels.end(), 0.0f);
+  lamp.texels[2 * 64 * 64 * 3 + (32 * 64 + 32) * 3] = 1e4f;
+  const auto plain = irradianceSh(lamp), mild = irradianceSh(lamp, true);
+  const auto below = [](const IrradianceSh& sh) { return sh[0][0] - sh[1][0] - sh[6][0] - sh[8][0]; };  // at -Y
+  REQUIRE((plain && mild));
+  CHECK((*plain)[0][0] == (*mild)[0][0]);
+  CHECK((*mild)[1][0] < (*plain)[1][0]);
+  CHECK(below(*mild) >= 0);
   CHECK_FALSE(irradianceSh(CubeLevel{}));
   CHECK_FALSE(irradianceSh(Image{}));
 }

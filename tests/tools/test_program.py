@@ -500,6 +500,27 @@ class Prefilter(Program):
             for i in range(1, 9):
                 self.assertAlmostEqual(sh["coefficients"][i][c], 0, delta=5e-3)  # texels are points: 16 rows are this far from a sphere
 
+    def test_dering(self):
+        self.sky.write_bytes(hdr_text(64, 32, lambda a, p: (1000.0 if p < 0.1 else 0.0,) * 3))
+
+        def least(*more):
+            self.prefilter("a.ktx2", "--sh", self.out / "sh.json", *more)
+            sh = json.loads((self.out / "sh.json").read_text())
+            self.assertEqual(sh["dering"], bool(more))
+            c = [row[0] for row in sh["coefficients"]]
+            values = []
+            for i in range(64):
+                y = 1 - 2 * (i + 0.5) / 64
+                for k in range(32):
+                    x, z = ((1 - y * y) ** 0.5 * f(k * math.pi / 16) for f in (math.cos, math.sin))
+                    values.append(sum(a * b for a, b in zip(c, (1, y, z, x, x * y, y * z, 3 * z * z - 1, x * z, x * x - y * y))))
+            return min(values), max(values)
+        low, high = least()
+        self.assertLess(low, -0.05 * high)
+        low, high = least("--dering")
+        self.assertGreater(low, -1e-3 * high)
+        self.bad(2, "prefilter", self.sky, "-o", self.out / "a.dds", "--dering", says="--sh")
+
     def test_usage(self):
         self.bad(2, "prefilter", says="IN")
         self.bad(2, "prefilter", self.sky, says="--output")

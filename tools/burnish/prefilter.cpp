@@ -20,7 +20,7 @@ struct PrefilterArguments {
   std::vector<std::string> inputs;
   std::string output, json, sh;
   burnish::PrefilterOptions options;
-  bool half = false, whole = false, check = false;
+  bool half = false, whole = false, check = false, deRing = false;
 
   [[nodiscard]] PixelType type() const { return whole ? PixelType::F32 : PixelType::F16; }
 };
@@ -104,12 +104,15 @@ Json toJson(const PrefilterArguments& arguments, const Outcome& outcome) {
 }
 
 /// What --sh writes.
-Result<Json> shJson(const Outcome& outcome) {
-  const auto sh = outcome.source.isCube() ? burnish::irradianceSh(outcome.source.cube.levels[0]) : burnish::irradianceSh(outcome.source.latLong);
+Result<Json> shJson(const PrefilterArguments& arguments, const Outcome& outcome) {
+  const int threads = arguments.options.threads;
+  const auto sh = outcome.source.isCube() ? burnish::irradianceSh(outcome.source.cube.levels[0], arguments.deRing, threads)
+                                          : burnish::irradianceSh(outcome.source.latLong, arguments.deRing, threads);
   if (!sh) return fail(sh.error());
   Json out;
   out["schema_version"] = 1;
   out["quantity"] = "irradiance / pi";
+  out["dering"] = arguments.deRing;
   out["basis"] = {"1", "y", "z", "x", "x*y", "y*z", "3*z*z-1", "x*z", "x*x-y*y"};
   out["coefficients"] = Json::array();
   for (const auto& rgb : *sh) out["coefficients"].push_back(rgb);
@@ -150,7 +153,7 @@ int run(const PrefilterArguments& arguments) {
     written = saveCubemap(arguments.output, outcome.cubemap, arguments.type(), outcome.warnings);
   }
   if (within && written && !arguments.sh.empty()) {
-    const auto sh = shJson(outcome);
+    const auto sh = shJson(arguments, outcome);
     if (!sh) return progress.finish(), printError(sh.error());
     written = writeJson(arguments.sh, *sh);
   }
@@ -199,7 +202,8 @@ void addOutputs(CLI::App& app, PrefilterArguments& arguments) {
       ->required();
   CLI::Option* half = app.add_flag("--half", arguments.half, "write half floats (the default); values above 65504 are held there, with a warning");
   app.add_flag("--float", arguments.whole, "write floats")->excludes(half);
-  app.add_option("--sh", arguments.sh, "write the source's irradiance in spherical harmonics (L2) as JSON (- for standard output)")->type_name("FILE");
+  CLI::Option* sh = app.add_option("--sh", arguments.sh, "write the source's irradiance in spherical harmonics (L2) as JSON (- for standard output)")->type_name("FILE");
+  app.add_flag("--dering", arguments.deRing, "with --sh: damp bands 1 and 2 as little as leaves no direction negative")->needs(sh);
   app.add_option("--json", arguments.json, "write levels, times, errors and warnings as JSON (- for standard output)")->type_name("FILE");
 }
 

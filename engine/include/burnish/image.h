@@ -125,9 +125,9 @@ BURNISH_API Result<Cubemap> prefilterCubemap(const Image& latLong, const Prefilt
 /// Irradiance over π in a direction n, as spherical harmonics up to band 2 with every constant folded in: Σ coefficient[i] · basis[i], the basis 1, y, z, x, xy, yz, 3z² - 1, xz, x² - y² of n,
 /// in the order (0,0) (1,-1) (1,0) (1,1) (2,-2) (2,-1) (2,0) (2,1) (2,2) (Ramamoorthi and Hanrahan 2001). RGB, in the source's unit.
 using IrradianceSh = std::array<std::array<double, 3>, 9>;
-/// `source` as for prefilterCubemap(). Values must be finite.
-BURNISH_API Result<IrradianceSh> irradianceSh(const CubeLevel& source);
-BURNISH_API Result<IrradianceSh> irradianceSh(const Image& latLong);
+/// `source` as for prefilterCubemap(); values must be finite. deRing: bands 1 and 2 are damped (Sloan 2008) as little as leaves no direction negative; by nothing where none is.
+BURNISH_API Result<IrradianceSh> irradianceSh(const CubeLevel& source, bool deRing = false, int threads = 0);
+BURNISH_API Result<IrradianceSh> irradianceSh(const Image& latLong, bool deRing = false, int threads = 0);
 
 /// What checkPrefilter found of one level: the filtered texels against a sum in double over every texel of the source.
 struct PrefilterCheck {
