@@ -111,7 +111,8 @@ Result<CubeLevel> Reader::readLevel(std::span<const fs::path> faces, Metadata* t
     if (rgb.width != level.size) return fail(name, fmt::format("is {} pixels wide, the face +X is {}", rgb.width, level.size), "give six faces of one size");
     if (texts)
       for (const std::string_view key : {"BurnishLobe", "BurnishRoughness", "BurnishVersion", "BurnishLevel"})
-        if (valueOf(picture->texts, key) != valueOf(*texts, key)) return fail(name, fmt::format("its {} is not that of {}: the files are of two sets", key, faces[0].filename().string()), "write the whole set again");
+        if (valueOf(picture->texts, key) != valueOf(*texts, key))
+          return fail(name, fmt::format("its {} is not that of {}: the files are of two sets", key, faces[0].filename().string()), "write the whole set again");
     copyFace(rgb, 0, 0, false, level, face);
   }
   return level;

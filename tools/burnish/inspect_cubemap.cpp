@@ -15,6 +15,7 @@ using burnish::EnvironmentFile;
 
 constexpr float kMostHalf = 65504;
 constexpr double kNarrowLobe = 2.5;   // texels; bilinear sampling of narrower lobes errs by more than 2.5 % of the peak
+constexpr int kSmallFace = 8;
 constexpr double kMeanDrift = 0.02;   // of the mean radiance, which a filter does not change
 constexpr std::string_view kFaces[] = {"+X", "-X", "+Y", "-Y", "+Z", "-Z"};
 
@@ -62,7 +63,8 @@ void faults(const EnvironmentFile& file, std::size_t k, const LevelCount& found,
   if (!file.cube.lobe || k == 0) return;
   // Half-width of the lobe in texels at a face's centre: 1.06 α N (docs/shading.md, section 5).
   const double width = 1.06 * level.roughness * level.roughness * level.size;
-  if (level.roughness > 0 && width < kNarrowLobe) out.push_back(fmt::format("level {}: the lobe's half-width is {:.1f} texels, under {}: bilinear sampling will show it", k, width, kNarrowLobe));
+  if (level.roughness > 0 && width < kNarrowLobe) out.push_back(fmt::format("level {}: the lobe's half-width is {:.2f} texels, under {}: bilinear sampling will show it", k, width, kNarrowLobe));
+  if (level.size < kSmallFace) out.push_back(fmt::format("level {}: faces under {}x{}: bilinear sampling will show them", k, kSmallFace, kSmallFace));
   if (std::abs(found.mean() / firstMean - 1) > kMeanDrift) out.push_back(fmt::format("level {}: its mean is {:.1f} % off level 0's; a filter keeps it", k, 100 * (found.mean() / firstMean - 1)));
 }
 

@@ -97,7 +97,11 @@ Json toJson(const PrefilterArguments& arguments, const Outcome& outcome) {
   if (outcome.check) {
     out["check"] = {{"within", outcome.check->within()}, {"rms_bound", arguments.options.error}, {"worst_bound", 10 * arguments.options.error}, {"levels", Json::array()}};
     for (const auto& level : outcome.check->levels)
-      out["check"]["levels"].push_back({{"size", level.size}, {"samples", level.samples}, {"rms", level.samples > 0 ? Json(level.rms) : Json()}, {"worst", level.samples > 0 ? Json(level.worst) : Json()}, {"within", level.within}});
+      out["check"]["levels"].push_back({{"size", level.size},
+                                        {"samples", level.samples},
+                                        {"rms", level.samples > 0 ? Json(level.rms) : Json()},
+                                        {"worst", level.samples > 0 ? Json(level.worst) : Json()},
+                                        {"within", level.within}});
   }
   out["warnings"] = warningTexts(outcome.warnings);
   return out;
@@ -179,7 +183,8 @@ bool isCubemapName(const std::string& text) {
 void checkSize(const std::string& text, burnish::PrefilterOptions& options) {
   char* end = nullptr;
   const long value = std::strtol(text.c_str(), &end, 10);
-  if (text.empty() || *end || value < 16 || value > 4096 || (value & (value - 1)) != 0) throw CLI::ValidationError("--size", fmt::format("'{}' is not a size: give a power of two from 16 to 4096", text));
+  if (text.empty() || *end || value < 16 || value > 4096 || (value & (value - 1)) != 0)
+    throw CLI::ValidationError("--size", fmt::format("'{}' is not a size: give a power of two from 16 to 4096", text));
   options.size = int(value);
 }
 
@@ -212,7 +217,8 @@ void addOutputs(CLI::App& app, PrefilterArguments& arguments) {
 Command addPrefilter(CLI::App& program) {
   auto arguments = std::make_shared<PrefilterArguments>();
   CLI::App* app = program.add_subcommand("prefilter", "Surroundings to a cubemap whose levels match the specular lobe");
-  app->add_option("IN", arguments->inputs, "a lat-long picture, cross or strip (.hdr, .exr, .png, .jpg), a .dds or .ktx2 cube, a pattern of six files (face_%s.exr), a folder of them, or six files: +X -X +Y -Y +Z -Z")
+  app->add_option("IN", arguments->inputs,
+                  "a lat-long picture, cross or strip (.hdr, .exr, .png, .jpg), a .dds or .ktx2 cube, a pattern of six files (face_%s.exr), a folder of them, or six files: +X -X +Y -Y +Z -Z")
       ->required()
       ->type_name("")
       ->expected(1, 6);
@@ -221,7 +227,8 @@ Command addPrefilter(CLI::App& program) {
   addChoice(*app, "--lobe", {kLobes[0].data(), kLobes[1].data()}, [&options](std::size_t i) { options.lobe = burnish::ReflectionLobe(i); }, "what the levels match (blinn-phong)");
   app->add_option_function<std::string>("--size", [&options](const std::string& text) { checkSize(text, options); }, "texels along an edge of level 0 (256)")->type_name("N");
   app->add_option("--levels", options.levels, "how many levels; without: down to faces of 8x8")->type_name("K")->check(CLI::Range(1, 13));
-  app->add_option_function<std::string>("--error", [&options](const std::string& text) { checkError(text, options); }, "rms error of a level over its rms value that is allowed (1e-4)")->type_name("E");
+  app->add_option_function<std::string>("--error", [&options](const std::string& text) { checkError(text, options); },
+                                        "rms error of a level over its rms value that is allowed (1e-4)")->type_name("E");
   app->add_option("--threads", options.threads, "at most N threads; the result is the same")->type_name("N")->check(CLI::Range(1, 1024));
   app->add_flag("--check", arguments->check, "sum random texels of every level again, in double; exit code 1 and no file where the error is above --error (rms) or ten times that (worst texel)");
   app->footer(
