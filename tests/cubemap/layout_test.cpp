@@ -217,3 +217,17 @@ TEST_CASE("Values that are no radiance are mended, with a warning that names the
   CHECK(std::isnan(stored->cube.levels[0].texels[(0 * 16 + 5) * 3 + 1]));
   CHECK(report.warnings().size() == 1);
 }
+
+TEST_CASE("Mended values of a lat-long picture are named by column and row", "[cubemap]") {
+  const Folder folder;
+  Image picture = makeImage(8, 4, 4, PixelType::F32);
+  picture.f32()[(2 * 8 + 3) * 4 + 1] = -std::numeric_limits<float>::infinity();
+  picture.f32()[(3 * 8 + 3) * 4 + 3] = std::nanf("");  // alpha: nobody looks
+  REQUIRE(writeExr(folder.path / "l.exr", picture));
+  Report report;
+  const auto read = readEnvironment(folder.path / "l.exr", report, options());
+  REQUIRE(read);
+  CHECK(read->latLong.f32()[(2 * 8 + 3) * 3 + 1] == 0);
+  REQUIRE(report.warnings().size() == 1);
+  CHECK(report.warnings()[0].what.find("1 values were mended: 0 not a number and 1 negative became 0, 0 infinite became 65504; the first is in column 3, row 2") == 0);
+}
