@@ -6,7 +6,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <span>
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace burnish::core {
 
@@ -35,5 +39,18 @@ Result<std::vector<std::byte>> readFileInside(const std::filesystem::path& folde
 /// the name; where the file system has O_TMPFILE (ext4, xfs, btrfs, tmpfs) it leaves a temporary one only in the
 /// instant between naming and renaming it.
 Result<void> writeFileAtomic(const std::filesystem::path& file, std::span<const std::byte> bytes);
+
+struct NamedBytes {
+  std::string name;  ///< without a folder
+  std::vector<std::byte> bytes;
+};
+
+/// Puts a folder that holds exactly these files at `folder`, all or none: they are written and flushed in a temporary
+/// folder beside it, which then takes its place in one step (renameat2). An old folder goes only if `mayReplace` is true
+/// of each name in it and all are regular files; else, and on any other error, it stays as it was. The step is one where
+/// the file system can exchange names (ext4, xfs, btrfs, tmpfs); elsewhere a kill between two renames leaves the old
+/// folder under a temporary name. A kill may leave a temporary folder (.burnish-*.tmp) behind, never a mixed one.
+Result<void> replaceFolder(const std::filesystem::path& folder, std::span<const NamedBytes> files,
+                           const std::function<bool(std::string_view)>& mayReplace);
 
 }  // namespace burnish::core

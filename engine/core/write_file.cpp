@@ -17,9 +17,9 @@
 
 #include "core/file.h"
 #include "core/unique_fd.h"
+#include "core/write_pending.h"
 
 namespace burnish::core {
-namespace {
 
 namespace fs = std::filesystem;
 
@@ -33,7 +33,6 @@ tl::unexpected<Error> writeError(const fs::path& file, const char* step, int err
   return fail(file.string(), fmt::format("{} failed ({})", step, std::strerror(error)), remedy);
 }
 
-/// Writes everything or says why not. `false`: errno tells. Waits where the descriptor does not block (a pipe).
 bool writeAll(int fd, std::span<const std::byte> bytes) {
   while (!bytes.empty()) {
     const ssize_t n = ::write(fd, bytes.data(), std::min<std::size_t>(bytes.size(), 1u << 30));
@@ -44,11 +43,8 @@ bool writeAll(int fd, std::span<const std::byte> bytes) {
   return true;
 }
 
-/// fsync, where the file system knows it.
 bool flushed(int fd) { return ::fsync(fd) == 0 || errno == EINVAL || errno == ENOTSUP || errno == EROFS; }
 
-/// A name in the target's folder that nobody else uses; hidden, short (the target's own may be at the limit of
-/// NAME_MAX).
 std::string temporaryName() {
   std::uint64_t random = 0;
   if (::getrandom(&random, sizeof random, GRND_NONBLOCK) != sizeof random)
@@ -56,6 +52,13 @@ std::string temporaryName() {
              (std::uint64_t(::getpid()) << 40);
   return fmt::format(".burnish-{:016x}.tmp", random);
 }
+
+bool fitsSizeLimit(std::size_t size) {
+  struct rlimit limit {};
+  return ::getrlimit(RLIMIT_FSIZE, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY || size <= limit.rlim_cur;
+}
+
+namespace {
 
 /// N of /dev/fd/N and /proc/self/fd/N: what /dev/stdout leads to; -1 for other paths. Opening such a path again would
 /// start at offset 0 and fails for sockets; the descriptor itself is what the caller means.
@@ -147,12 +150,6 @@ class PendingFile {
   UniqueFd folder_, fd_;
   std::string name_;
 };
-
-/// Whether RLIMIT_FSIZE lets a file of this size be written; asked first, since the kernel's answer is a deadly signal.
-bool fitsSizeLimit(std::size_t size) {
-  struct rlimit limit {};
-  return ::getrlimit(RLIMIT_FSIZE, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY || size <= limit.rlim_cur;
-}
 
 }  // namespace
 

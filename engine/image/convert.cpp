@@ -120,6 +120,14 @@ Image toF32(const Image& image, bool srgb) {
   return out;
 }
 
+Image toLinear(const Image& image) {
+  Image out = toF32(image, true);
+  if (image.type == PixelType::U16)
+    for (std::size_t i = 0; i < out.pixelCount() * std::size_t(out.channels); ++i)
+      if (!isAlpha(static_cast<int>(i % std::size_t(out.channels)), out.channels)) out.f32()[i] = static_cast<float>(decodeSrgb(out.f32()[i]));
+  return out;
+}
+
 Image toF16(const Image& image) {
   if (image.type == PixelType::F16) {
     Image out = image;

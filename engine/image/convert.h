@@ -24,6 +24,8 @@ std::uint8_t linearToSrgb8(float linear);
 /// The image as F32: U8 and U16 become 0 to 1. With `srgb`, colour channels of U8 images are decoded (the last of 2 and
 /// 4 channels is alpha and stays linear).
 Image toF32(const Image& image, bool srgb = false);
+/// The image as F32 in linear light: 8 and 16 bits are taken for sRGB (alpha stays), floats for linear.
+Image toLinear(const Image& image);
 /// The image as F16: values beyond ±65504 become that, NaN becomes 0. U8 and U16 become 0 to 1.
 Image toF16(const Image& image);
 

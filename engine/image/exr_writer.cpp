@@ -3,6 +3,7 @@
 #include <ImfHeader.h>
 #include <ImfIO.h>
 #include <ImfOutputFile.h>
+#include <ImfStringAttribute.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -36,13 +37,14 @@ class MemoryStream final : public Imf::OStream {
   std::size_t at_ = 0;
 };
 
-std::vector<std::byte> encode(const Image& image) {
+std::vector<std::byte> encode(const Image& image, std::span<const std::pair<std::string, std::string>> attributes) {
   constexpr const char* kNames[4][4] = {{"Y"}, {"Y", "A"}, {"R", "G", "B"}, {"R", "G", "B", "A"}};
   const Imf::PixelType type = image.type == PixelType::F16 ? Imf::HALF : Imf::FLOAT;
   const auto sample = static_cast<std::size_t>(bytesPerChannel(image.type));
   const std::size_t pixel = sample * static_cast<std::size_t>(image.channels);
   Imf::Header header(image.width, image.height);
   header.compression() = Imf::ZIP_COMPRESSION;
+  for (const auto& [name, text] : attributes) header.insert(name, Imf::StringAttribute(text));
   Imf::FrameBuffer frame;
   for (int c = 0; c < image.channels; ++c) {
     const char* name = kNames[image.channels - 1][c];
@@ -62,7 +64,8 @@ std::vector<std::byte> encode(const Image& image) {
 
 }  // namespace
 
-Result<std::vector<std::byte>> encodeExr(const Image& image, std::string_view place) {
+Result<std::vector<std::byte>> encodeExr(const Image& image, std::string_view place,
+                                         std::span<const std::pair<std::string, std::string>> attributes) {
   if ((image.type != PixelType::F16 && image.type != PixelType::F32) || image.channels < 1 || image.channels > 4)
     return fail(std::string(place), "only half and float pictures of 1 to 4 channels can be written as OpenEXR",
                 "convert it first, or write PNG");
@@ -72,7 +75,7 @@ Result<std::vector<std::byte>> encodeExr(const Image& image, std::string_view pl
                             image.data.size()),
                 "draw something first");
   try {
-    return encode(image);
+    return encode(image, attributes);
   } catch (const std::exception& e) {
     return fail(std::string(place), fmt::format("cannot be written as OpenEXR ({})", e.what()),
                 "make the picture smaller");

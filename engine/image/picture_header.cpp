@@ -6,51 +6,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <charconv>
 #include <cstring>
 #include <string>
 
+#include "image/bytes.h"
+
 namespace burnish::image {
 namespace {
-
-/// A cursor over untrusted bytes: reading past the end sets `bad` and gives zeros.
-class Bytes {
- public:
-  explicit Bytes(std::span<const std::byte> file) : file_(file) {}
-  std::uint32_t u8() { return at_ < file_.size() ? std::to_integer<std::uint32_t>(file_[at_++]) : (bad_ = true, 0u); }
-  std::uint32_t be16() {
-    const std::uint32_t high = u8();
-    return high << 8 | u8();
-  }
-  std::uint32_t be32() {
-    const std::uint32_t high = be16();
-    return high << 16 | be16();
-  }
-  std::int32_t le32() {
-    std::uint32_t value = 0;
-    for (int shift = 0; shift < 32; shift += 8) value |= u8() << shift;
-    return std::bit_cast<std::int32_t>(value);
-  }
-  void skip(std::size_t n) { n <= file_.size() - at_ ? at_ += n : (at_ = file_.size(), bad_ = true); }
-  /// Text up to `end`, which is consumed; at most `longest` bytes.
-  std::string_view textUntil(char end, std::size_t longest) {
-    const char* begin = reinterpret_cast<const char*>(file_.data()) + at_;
-    const std::size_t room = std::min(longest + 1, file_.size() - at_);
-    const void* found = room > 0 ? std::memchr(begin, end, room) : nullptr;
-    if (!found) return bad_ = true, std::string_view{};
-    const auto length = static_cast<std::size_t>(static_cast<const char*>(found) - begin);
-    at_ += length + 1;
-    return {begin, length};
-  }
-  [[nodiscard]] bool bad() const { return bad_; }
-  [[nodiscard]] std::size_t position() const { return at_; }
-
- private:
-  std::span<const std::byte> file_;
-  std::size_t at_ = 0;
-  bool bad_ = false;
-};
 
 tl::unexpected<Error> damaged(std::string_view name, PictureFormat format, std::string_view what) {
   return fail(std::string(name), fmt::format("is a damaged {} file: {}", formatName(format), what),
@@ -251,6 +214,24 @@ Result<PictureHeader> readPictureHeader(std::span<const std::byte> file, std::st
       break;
   }
   return readExr(file, name);
+}
+
+std::vector<std::pair<std::string, std::string>> exrTexts(std::span<const std::byte> file) {
+  std::vector<std::pair<std::string, std::string>> texts;
+  if (pictureFormat(file) != PictureFormat::Exr) return texts;
+  Bytes in(file);
+  in.skip(8);
+  for (;;) {
+    const std::string_view attribute = in.textUntil('\0', 255);
+    if (in.bad() || attribute.empty()) return texts;
+    const std::string_view type = in.textUntil('\0', 255);
+    const std::int32_t size = in.le32();
+    const auto bytes = in.take(size < 0 ? file.size() + 1 : static_cast<std::size_t>(size));
+    if (in.bad()) return texts;
+    const auto* text = reinterpret_cast<const char*>(bytes.data());
+    if (type == "string") texts.emplace_back(std::string(attribute), std::string(text, bytes.size()));
+    if (type == "envmap" && bytes.size() == 1) texts.emplace_back(std::string(attribute), bytes[0] == std::byte(1) ? "cube" : "latlong");
+  }
 }
 
 Result<void> checkPictureLimits(const PictureHeader& header, const DecodeLimits& limits, std::string_view name) {

@@ -4,7 +4,9 @@
 #include <burnish/image.h>
 
 #include <optional>
+#include <string>
 #include <string_view>
+#include <utility>
 
 namespace burnish::image {
 
@@ -27,6 +29,10 @@ std::string_view formatName(PictureFormat format);
 /// file's length cannot hold. Sizes in the answer are positive and fit 31 bits; they are not yet checked against
 /// limits.
 Result<PictureHeader> readPictureHeader(std::span<const std::byte> file, std::string_view name);
+
+/// The attributes of an OpenEXR file's first part that hold text (type `string`), by name; `envmap` (OpenEXR's own layouts of surroundings) gives "latlong" or "cube".
+/// What is no OpenEXR file, or damaged, has none.
+std::vector<std::pair<std::string, std::string>> exrTexts(std::span<const std::byte> file);
 
 /// Whether a picture of this size may be decoded at all.
 Result<void> checkPictureLimits(const PictureHeader& header, const DecodeLimits& limits, std::string_view name);

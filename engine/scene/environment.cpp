@@ -12,17 +12,6 @@ namespace burnish {
 namespace scene {
 namespace {
 
-/// The picture as F32 in linear light; 8 and 16 bits are taken for sRGB.
-Image linear(const Image& image) {
-  Image out = image::toF32(image, image.type == PixelType::U8);
-  if (image.type == PixelType::U16)
-    for (std::size_t i = 0; i < out.pixelCount() * std::size_t(out.channels); ++i) {
-      float& c = out.f32()[i];
-      c = c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f);
-    }
-  return out;
-}
-
 struct Mended {
   std::size_t notANumber = 0, negative = 0, tooLarge = 0;
   float largest = 0;  ///< before clamping, finite ones
@@ -53,7 +42,7 @@ Image environmentMap(const Image& image, const std::string& place, Report& repor
   const std::size_t pixels = image.pixelCount();
   const std::size_t channels = std::size_t(image.channels);
   Mended mended;
-  const Image source = linear(image);
+  const Image source = image::toLinear(image);
   float* to = out.f32();
   for (std::size_t i = 0; i < pixels; ++i)
     for (std::size_t c = 0; c < 3; ++c) *to++ = mend(source.f32()[i * channels + (channels >= 3 ? c : 0)], mended);

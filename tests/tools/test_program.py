@@ -2,6 +2,7 @@
 """The burnish program, driven as a user drives it: test_program.py BURNISH [unittest arguments]."""
 import base64
 import json
+import math
 import os
 import pathlib
 import re
@@ -16,10 +17,11 @@ import time
 import unittest
 
 BURNISH = ""
-SUBCOMMANDS = ["render", "plan", "inspect", "doctor", "stability"]
+SUBCOMMANDS = ["render", "plan", "prefilter", "inspect", "doctor", "stability"]
 SANITIZED = os.environ.get("BURNISH_SANITIZED") == "1"
 RENDER_KEYS = ["schema_version", "backend", "renderer", "size", "frames", "timing_mode", "frame_ms", "frame_cpu_ms", "passes", "effects", "programs",
                "plan", "gbuffer_bytes_per_pixel", "texture_bytes", "nonfinite_pixels", "gl_errors", "warnings", "rungs"]
+PREFILTER_KEYS = ["schema_version", "source", "size", "lobe", "format", "levels", "total_ms", "total_cpu_ms", "tables_ms", "warnings"]
 PLAN_KEYS = ["schema_version", "effects", "passes", "programs", "targets"]
 
 
@@ -89,7 +91,7 @@ class Help(Program):
 
     def test_what_does_not_work_yet_is_not_in_help(self):
         texts = "".join(self.good(*words, "--help").stdout for words in [[]] + [[name] for name in SUBCOMMANDS])
-        for later in "--probes bake prefilter reference".split():
+        for later in "--probes bake reference".split():
             self.assertNotRegex(texts, rf"(?<![\w-]){later}(?![\w-])")
 
     def test_help_costs_little(self):
@@ -341,6 +343,296 @@ class Plan(Program):
         self.good("plan", self.scene, "--json", self.out / "link.json")
         self.assertTrue((self.out / "link.json").is_symlink())
         self.assertIn("effects", json.loads((self.out / "real.json").read_text()))
+
+
+def hdr_text(width, height, light):
+    """A Radiance picture, not run-length coded; light(azimuth from -Z toward +X, polar angle) gives a colour."""
+    data = bytearray(b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y %d +X %d\n" % (height, width))
+    for y in range(height):
+        for x in range(width):
+            rgb = light(((x + 0.5) / width - 0.5) * 2 * math.pi, (y + 0.5) / height * math.pi)
+            top = max(max(rgb), 1e-30)
+            exponent = math.frexp(top)[1]
+            scale = 256 / 2.0 ** exponent
+            data += bytes([*(min(255, int(c * scale)) for c in rgb), exponent + 128])
+    return bytes(data)
+
+
+def read_ktx2(data):
+    """{levels: [six faces of rows of texels], keys}, from the specification alone."""
+    assert data[:12] == b"\xabKTX 20\xbb\r\n\x1a\n"
+    fmt, type_size, width, height, depth, layers, faces, level_count, scheme, dfd_at, dfd_len, kvd_at, kvd_len, sgd_at, sgd_len = struct.unpack_from("<13I2Q", data, 12)
+    assert (width, depth, layers, faces, scheme, sgd_at, sgd_len) == (height, 0, 0, 6, 0, 0, 0)
+    letter, texel = {97: ("e", 8), 109: ("f", 16)}[fmt]
+    assert type_size == texel // 4
+    # The descriptor: right after the level index, its own length first, and what it must say of RGBA floats.
+    assert dfd_at == 80 + 24 * level_count and dfd_at % 4 == 0 and kvd_at == dfd_at + dfd_len
+    words = struct.unpack_from(f"<{dfd_len // 4}I", data, dfd_at)
+    assert words[0] == dfd_len == 4 + 24 + 16 * 4 and words[1] == 0 and words[2] == 2 | (24 + 64) << 16
+    assert words[3] == 0x00010101 and words[4] == 0 and words[5] == texel and words[6] == 0  # RGBSDA, BT.709, linear, straight
+    for c in range(4):
+        bits = texel * 2
+        assert words[7 + 4 * c:11 + 4 * c] == (bits * c | (bits - 1) << 16 | (0xc0 | (c if c < 3 else 15)) << 24, 0, 0xbf800000, 0x3f800000)
+    keys, at = {}, kvd_at
+    while at < kvd_at + kvd_len:
+        length, = struct.unpack_from("<I", data, at)
+        key, value = data[at + 4:at + 4 + length].split(b"\0", 1)
+        assert value.endswith(b"\0")
+        keys[key.decode()] = value[:-1].decode()
+        at += 4 + (length + 3) // 4 * 4
+    assert at == kvd_at + kvd_len and list(keys) == sorted(keys)
+    levels, end = [], len(data)
+    for k in range(level_count):
+        offset, length, whole = struct.unpack_from("<3Q", data, 80 + 24 * k)
+        size = max(width >> k, 1)
+        assert length == whole == 6 * size * size * texel and offset % texel == 0 and offset + length == end
+        end = offset  # the smallest level comes first
+        values = struct.unpack_from(f"<{6 * size * size * 4}{letter}", data, offset)
+        levels.append([[values[((f * size + y) * size) * 4:((f * size + y + 1) * size) * 4] for y in range(size)] for f in range(6)])
+    assert end - (kvd_at + kvd_len) < texel
+    return {"levels": levels, "keys": keys, "size": width, "half": letter == "e"}
+
+
+class Prefilter(Program):
+    """At faces of 16, so that all of it takes seconds."""
+    def setUp(self):
+        super().setUp()
+        self.sky = self.folder / "sky.hdr"
+        self.sky.write_bytes(hdr_text(32, 16, lambda azimuth, polar: (1.0, 0.5, 0.25)))
+
+    def prefilter(self, out, *more, source=None):
+        return self.good("prefilter", source or self.sky, "-o", self.out / out, "--size", "16", *more)
+
+    def test_constant_in_constant_out_and_what_ktx2_says(self):
+        for more, lobe in (["--half"], "blinn-phong"), (["--float", "--lobe", "ggx"], "ggx"):
+            self.prefilter("a.ktx2", *more)
+            cube = read_ktx2((self.out / "a.ktx2").read_bytes())
+            self.assertEqual((cube["size"], cube["half"]), (16, more[0] == "--half"))
+            self.assertEqual(cube["keys"]["BurnishLobe"], lobe)
+            self.assertEqual(cube["keys"]["BurnishVersion"], "1")
+            self.assertRegex(cube["keys"]["KTXwriter"], r"^Burnish \d+\.\d+\.\d+$")
+            roughness = [float(r) for r in cube["keys"]["BurnishRoughness"].split(" ")]
+            self.assertEqual(len(roughness), len(cube["levels"]))
+            self.assertEqual(roughness, sorted(roughness))
+            self.assertEqual(roughness[0], 0)
+            for level in cube["levels"]:
+                for face in level:
+                    for row in face:
+                        for i, value in enumerate(row):
+                            self.assertAlmostEqual(value, (1, 0.5, 0.25, 1)[i % 4], delta=1e-3)
+
+    def test_faces_look_where_they_should(self):
+        # Red toward +X (to the right of the picture's centre), green up, blue toward +Z (at the picture's edges).
+        self.sky.write_bytes(hdr_text(64, 32, lambda a, p: (1 + math.sin(p) * math.sin(a), 1 + math.cos(p), 1 - math.sin(p) * math.cos(a))))
+        self.prefilter("a.ktx2", "--float")
+        for level in read_ktx2((self.out / "a.ktx2").read_bytes())["levels"]:
+            middle = [face[len(face) // 2][4 * (len(face) // 2):][:3] for face in level]
+            for axis in range(3):
+                self.assertGreater(middle[2 * axis][axis], 1.4)
+                self.assertLess(middle[2 * axis + 1][axis], 0.6)
+        # +X: columns run toward -Z, rows downward.
+        face = read_ktx2((self.out / "a.ktx2").read_bytes())["levels"][0][0]
+        self.assertGreater(face[8][2], face[8][4 * 15 + 2])
+        self.assertGreater(face[0][4 * 8 + 1], face[15][4 * 8 + 1])
+
+    def test_every_output_is_an_input_with_the_same_texels(self):
+        self.sky.write_bytes(hdr_text(64, 32, lambda a, p: (4 + a, 1 + p, 3)))
+        for name in "a.dds", "a.exr", "folder", "a.ktx2":
+            self.prefilter(name, "--levels", "2")
+            result = self.prefilter("again.ktx2", "--levels", "2", source=self.out / name)
+            self.assertIn("is filtered already", result.stderr)
+            first = read_ktx2((self.out / "again.ktx2").read_bytes())["levels"][0]
+            if name == "a.dds":
+                expected = first
+            self.assertEqual(first, expected)
+        self.assertEqual(sorted(p.name for p in (self.out / "folder").iterdir())[:2], ["level0_nx.exr", "level0_ny.exr"])
+        self.prefilter("again.ktx2", "--levels", "2", source=self.out / "folder" / "level0_%s.exr")
+        self.assertEqual(read_ktx2((self.out / "again.ktx2").read_bytes())["levels"][0], expected)
+        faces = [self.out / "folder" / f"level0_{face}.exr" for face in ("px", "nx", "py", "ny", "pz", "nz")]
+        self.good("prefilter", *faces, "-o", self.out / "again.ktx2", "--size", "16", "--levels", "2")
+        self.assertEqual(read_ktx2((self.out / "again.ktx2").read_bytes())["levels"][0], expected)
+
+    def test_same_bytes_for_any_number_of_threads(self):
+        data = set()
+        for threads in 1, 2, 8:
+            self.prefilter("a.dds", "--threads", threads)
+            data.add((self.out / "a.dds").read_bytes())
+        self.assertEqual(len(data), 1)
+
+    def test_json(self):
+        self.prefilter("a.ktx2", "--levels", "2", "--json", self.out / "a.json")
+        report = json.loads((self.out / "a.json").read_text(), parse_constant=self.fail)
+        self.assertEqual(list(report), PREFILTER_KEYS)
+        self.assertEqual((report["schema_version"], report["size"], report["lobe"], report["format"], report["warnings"]), (1, 16, "blinn-phong", "half", []))
+        self.assertEqual([level["size"] for level in report["levels"]], [16, 8])
+        for level in report["levels"]:
+            self.assertEqual(len({"samples", "bands"} & set(level)), 1)
+            self.assertEqual([key for key in level if key not in ("samples", "bands")], ["size", "roughness", "power", "ms"])
+        self.assertEqual((report["levels"][0]["roughness"], report["levels"][0]["power"]), (0, None))
+        second = report["levels"][1]
+        self.assertAlmostEqual(second["power"], 2 / second["roughness"] ** 4 - 2, places=5)
+        self.assertGreater(report["total_ms"], 0)
+        result = self.prefilter("a.ktx2", "--json", "-")
+        self.assertEqual(list(json.loads(result.stdout)), PREFILTER_KEYS)
+
+    def test_check(self):
+        result = self.prefilter("a.ktx2", "--check", "--json", self.out / "a.json")
+        self.assertIn("holds", result.stdout)
+        self.assertNotIn("FAILS", result.stdout)
+        check = json.loads((self.out / "a.json").read_text())["check"]
+        self.assertTrue(check["within"])
+        self.assertEqual((check["rms_bound"], check["worst_bound"]), (1e-4, 1e-3))
+        for level in check["levels"][1:]:
+            self.assertEqual(list(level), ["size", "samples", "rms", "worst", "within"])
+            self.assertGreater(level["samples"], 0)
+            self.assertLessEqual(level["rms"], 1e-4)
+        self.assertIsNone(check["levels"][0]["rms"])  # a lat-long picture has no texels of level 0
+        self.prefilter("b.ktx2", "--check", "--float", source=self.out / "a.ktx2")
+
+    def test_sh(self):
+        self.prefilter("a.ktx2", "--sh", self.out / "sh.json")
+        sh = json.loads((self.out / "sh.json").read_text())
+        self.assertEqual(sh["schema_version"], 1)
+        self.assertEqual(len(sh["coefficients"]), 9)
+        # A constant sky: radiance L everywhere gives irradiance pi L, in the first band alone.
+        for c, light in enumerate((1, 0.5, 0.25)):
+            self.assertAlmostEqual(sh["coefficients"][0][c], light, delta=1e-4)
+            for i in range(1, 9):
+                self.assertAlmostEqual(sh["coefficients"][i][c], 0, delta=5e-3)  # texels are points: 16 rows are this far from a sphere
+
+    def test_dering(self):
+        self.sky.write_bytes(hdr_text(64, 32, lambda a, p: (1000.0 if p < 0.1 else 0.0,) * 3))
+
+        def least(*more):
+            self.prefilter("a.ktx2", "--sh", self.out / "sh.json", *more)
+            sh = json.loads((self.out / "sh.json").read_text())
+            self.assertEqual(sh["dering"], bool(more))
+            c = [row[0] for row in sh["coefficients"]]
+            values = []
+            for i in range(64):
+                y = 1 - 2 * (i + 0.5) / 64
+                for k in range(32):
+                    x, z = ((1 - y * y) ** 0.5 * f(k * math.pi / 16) for f in (math.cos, math.sin))
+                    values.append(sum(a * b for a, b in zip(c, (1, y, z, x, x * y, y * z, 3 * z * z - 1, x * z, x * x - y * y))))
+            return min(values), max(values)
+        low, high = least()
+        self.assertLess(low, -0.03 * high)  # of 1 + 2 c + 5/4 P2(c): -0.158 at c = -8/15, 4.25 at 1
+        low, high = least("--dering")
+        self.assertGreater(low, -1e-3 * high)
+        self.bad(2, "prefilter", self.sky, "-o", self.out / "a.dds", "--dering", says="--sh")
+
+    def test_usage(self):
+        self.bad(2, "prefilter", says="IN")
+        self.bad(2, "prefilter", self.sky, says="--output")
+        self.bad(2, "prefilter", self.sky, self.sky, "-o", self.out / "a.dds", says="six faces")
+        self.bad(2, "prefilter", self.sky, "-o", self.out / "a.png", says=(".ktx2", ".dds", ".exr"))
+        self.bad(2, "prefilter", self.sky, "-o", self.out / "a.dds", "--lobe", "phong", says=("blinn-phong", "ggx"))
+        self.bad(2, "prefilter", self.sky, "-o", self.out / "a.dds", "--half", "--float", says="--float")
+        for option, values in {"--size": ["0", "15", "100", "8192", "big", "-16"], "--levels": ["-1", "0", "40", "x"], "--error": ["0", "1", "nan", "x"], "--threads": ["0", "x"]}.items():
+            for value in values:
+                self.bad(2, "prefilter", self.sky, "-o", self.out / "a.dds", f"{option}={value}", says=option)
+        self.assertEqual(list(self.out.iterdir()), [])
+
+    def test_bad_inputs(self):
+        def fails(source, says):
+            self.bad(1, "prefilter", source, "-o", self.out / "a.ktx2", "--size", "16", says=says)
+            self.assertEqual(list(self.out.iterdir()), [])
+        fails(self.folder / "none.hdr", "none.hdr")
+        fails(self.folder / "face_%s.exr", "face_%s.exr")
+        fails(self.out, "no six faces")
+        fails("/dev/zero", "/dev/zero")
+        whole = self.sky.read_bytes()
+        broken = self.folder / "broken.hdr"
+        broken.write_bytes(whole[:-100])
+        fails(broken, "broken.hdr")
+        broken.write_bytes(b"hello, world")
+        fails(broken, ("broken.hdr", "KTX2"))
+        broken.write_bytes(hdr_text(7, 5, lambda a, p: (1, 1, 1)))
+        fails(broken, ("broken.hdr", "7 x 5", "2:1"))
+        self.prefilter("good.ktx2")
+        data = (self.out / "good.ktx2").read_bytes()
+        (self.out / "good.ktx2").unlink()
+        cut = self.folder / "cut.ktx2"
+        cut.write_bytes(data[:-1])
+        fails(cut, ("cut.ktx2: byte", "damaged KTX2"))
+        cut.write_bytes(data[:20] + struct.pack("<II", 1 << 28, 1 << 28) + data[28:])
+        fails(cut, "cut.ktx2")
+
+    def test_bad_texels_are_named(self):
+        self.prefilter("a.ktx2", "--float", "--levels", "1")
+        data = bytearray((self.out / "a.ktx2").read_bytes())
+        offset, = struct.unpack_from("<Q", data, 80)
+        struct.pack_into("<2f", data, offset + 16 * (16 * 16 + 2), float("nan"), -1)
+        (self.folder / "bad.ktx2").write_bytes(data)
+        result = self.prefilter("b.ktx2", "--levels", "2", source=self.folder / "bad.ktx2")
+        self.assertRegex(result.stderr, r"warning: .*bad\.ktx2: 2 values were mended: 1 not a number and 1 negative .* level 0, face -X, column 2, row 0")
+        text = self.good("inspect", self.folder / "bad.ktx2").stdout
+        self.assertIn("level 0: 1 NaN, 0 infinite, 1 negative values, the first on face -X, column 2, row 0", text)
+
+    def test_more_than_half_floats_hold(self):
+        self.sky.write_bytes(hdr_text(32, 16, lambda a, p: (1e5, 1, 1)))
+        self.assertRegex(self.prefilter("a.dds").stderr, r"values above 65504 \(largest 1\d\d\d\d\d|values above 65504 \(largest 1e\+05|values above 65504 \(largest 9\d\d\d\d")
+        self.assertEqual(self.prefilter("a.dds", "--float").stderr, "")
+
+    def test_outputs_that_cannot_be_written(self):
+        old = self.out / "old.ktx2"
+        self.prefilter("old.ktx2")
+        before = old.read_bytes()
+        for output in self.folder / "no/such/a.dds", self.sky / "a.dds", pathlib.Path("/proc/none.ktx2"), self.folder / "no/folder", pathlib.Path("/proc/none"):
+            self.bad(1, "prefilter", self.sky, "-o", output, "--size", "16", says=str(output))
+        self.bad(1, "prefilter", self.sky, "-o", self.folder, "--size", "16", says="none of the files to be replaced")
+        self.bad(1, "prefilter", self.sky, "-o", old, "--size", "16", "--json", self.folder / "no/a.json", says="a.json")
+
+        def small():
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (64, 64))
+        for output in old, self.out / "new.dds", self.out / "new.exr", self.out / "new":
+            result = self.run_it("prefilter", old, "-o", output, "--size", "16", "--lobe", "ggx", preexec_fn=small)  # no picture: its decoder needs shared memory
+            self.assertEqual(result.returncode, 1, result.stderr)
+            self.assertIn("file size limit", result.stderr)
+        self.assertEqual(old.read_bytes(), before)
+        self.assertEqual([p.name for p in self.out.iterdir()], ["old.ktx2"])
+
+    def test_kill_leaves_the_old_or_the_new(self):
+        """kill -9 at any moment; tests/cubemap does it thousands of times under the writer alone."""
+        rounds = 60 if os.environ.get("BURNISH_LONG") == "1" else 6
+        for name in "a.ktx2", "faces":
+            def content():
+                path = self.out / name
+                return path.read_bytes() if path.is_file() else b"".join(p.name.encode() + p.read_bytes() for p in sorted(path.iterdir()))
+            self.prefilter(name, "--lobe", "ggx", "--levels", "2")
+            allowed = [content()]
+            begin = time.monotonic()
+            self.prefilter(name, "--levels", "2")
+            span = time.monotonic() - begin
+            allowed.append(content())
+            for i in range(rounds):
+                child = subprocess.Popen([BURNISH, "prefilter", self.sky, "-o", self.out / name, "--size", "16", "--levels", "2", "--lobe", ("ggx", "blinn-phong")[i % 2]],
+                                         stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+                time.sleep(span * (0.3 + 0.7 * i / rounds))
+                child.kill()
+                child.wait(timeout=60)
+                self.assertIn(content(), allowed)
+
+    def test_inspect(self):
+        self.prefilter("a.dds", "--lobe", "ggx")
+        self.prefilter("faces", "--lobe", "ggx")
+        self.prefilter("a.exr", "--lobe", "ggx", "--float")
+        for name, says in ("a.dds", "format: DDS cube, R16G16B16A16_FLOAT, written by Burnish"), ("faces", "format: folder with six files a level"), ("a.exr", "format: OpenEXR, levels stacked"):
+            text = self.good("inspect", self.out / name).stdout
+            for expected in says, "size: 16x16, 6 faces, 2 levels", "lobe: ggx", "roughness", "wrong: ":
+                self.assertIn(expected, text)
+            self.assertRegex(text, r"\n +0 +16 +0\.0000 +- +0\.25 +1 +0\.58\d+\n")
+        self.assertIn("lobe: none", self.good("inspect", self.out / "faces" / "level0_%s.exr").stdout)
+
+    def test_progress_and_interrupt(self):
+        child = subprocess.Popen([BURNISH, "prefilter", self.sky, "-o", self.out / "a.dds", "--size", "4096"], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        time.sleep(0.3)
+        child.send_signal(signal.SIGINT)
+        child.communicate(timeout=60)
+        self.assertIn(child.returncode, (-signal.SIGINT, 0))
+        if child.returncode != 0:
+            self.assertEqual(list(self.out.iterdir()), [])
 
 
 class Doctor(Program):

@@ -6,6 +6,8 @@ namespace cli {
 
 void printScene(const burnish::Scene& scene, const burnish::Report& report, const std::string& name);
 void printPicture(const burnish::Image& image, const std::string& name);
+/// `cube` with its values as stored.
+void printCubemap(const burnish::EnvironmentFile& cube, const burnish::Report& report, const std::string& name);
 void printSubstance(const burnish::Substance& substance);
 
 /// What a range of substance codes means: "dielectric, F0 0.040 (IOR 1.50)", "metal 100 %", "dielectric of F0 0.040 (IOR 1.50) to metal 80 %".

@@ -17,6 +17,10 @@ class HelpText : public CLI::Formatter {
   std::string make_usage(const CLI::App* app, std::string name) const override {
     return CLI::Formatter::make_usage(app, app->get_parent() ? "burnish " + name : name);
   }
+  std::string make_option_usage(const CLI::Option* option) const override {
+    const std::string name = make_option_name(option, true) + (option->get_expected_max() > 1 ? "..." : "");
+    return option->get_required() ? name : "[" + name + "]";
+  }
   std::string make_option_opts(const CLI::Option* option) const override {
     const std::string type = option->get_type_name();
     return type.empty() ? "" : " " + type.substr(0, type.find(':'));
@@ -57,7 +61,7 @@ int runProgram(int argc, char** argv) {
   program.formatter(std::make_shared<HelpText>());
   program.require_subcommand(1);
   program.failure_message(CLI::FailureMessage::simple);
-  const std::vector<Command> commands = {addRender(program), addPlan(program), addInspect(program), addDoctor(program), addStability(program)};
+  const std::vector<Command> commands = {addRender(program), addPlan(program), addPrefilter(program), addInspect(program), addDoctor(program), addStability(program)};
 
   std::vector<std::string> names;
   for (const Command& command : commands) names.push_back(command.app->get_name());

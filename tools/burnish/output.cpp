@@ -102,6 +102,23 @@ Result<void> checkOutput(const fs::path& file) {
   return {};
 }
 
+Result<void> checkCubemapOutput(const fs::path& file) {
+  std::error_code error;
+  const bool folder = !file.has_filename() || file.extension().empty() || fs::is_directory(file, error);
+  if (!folder) return checkOutput(file);
+  const fs::path named = file.has_filename() ? file : file.parent_path();
+  if (fs::exists(named, error) && !fs::is_directory(named, error)) return fail(file.string(), "is no folder", "name a new folder, or end the name in .dds, .ktx2 or .exr");
+  const fs::path parent = named.has_parent_path() ? named.parent_path() : fs::path(".");
+  if (!fs::is_directory(parent, error)) return fail(file.string(), "its folder does not exist", "create " + parent.string());
+  if (access(parent.c_str(), W_OK | X_OK) != 0) return fail(file.string(), "cannot be written: " + reason(), "choose another folder");
+  return {};
+}
+
+Result<void> saveCubemap(const fs::path& file, const burnish::Cubemap& cubemap, burnish::PixelType type, burnish::Report& report) {
+  const WriteSection section;
+  return burnish::writeCubemap(file, cubemap, type, report);
+}
+
 namespace {
 /// The first three channels.
 Image withoutAlpha(const Image& image) {

@@ -17,6 +17,10 @@ void installSignals();
 burnish::Result<void> checkOutput(const std::filesystem::path& file);
 /// Writes .png or .exr (three channels) by the file's ending.
 burnish::Result<void> writePicture(const std::filesystem::path& file, const burnish::Image& rgba);
+/// The same of a cubemap: a file, or a folder that is new or holds nothing but cubemap faces.
+burnish::Result<void> checkCubemapOutput(const std::filesystem::path& file);
+/// burnish::writeCubemap; a signal waits for it.
+burnish::Result<void> saveCubemap(const std::filesystem::path& file, const burnish::Cubemap& cubemap, burnish::PixelType type, burnish::Report& report);
 /// Writes the document; "-" is standard output. Numbers that are not finite become null.
 burnish::Result<void> writeJson(const std::filesystem::path& file, const Json& document);
 /// Standard output arrived where it was sent (a full disk is an error).

@@ -2,6 +2,7 @@
 #pragma once
 #include <burnish/result.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -9,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace burnish {
@@ -119,5 +121,71 @@ struct PrefilterReport {
 /// error that names the first of them.
 BURNISH_API Result<Cubemap> prefilterCubemap(const CubeLevel& source, const PrefilterOptions& options = {}, PrefilterReport* report = nullptr);
 BURNISH_API Result<Cubemap> prefilterCubemap(const Image& latLong, const PrefilterOptions& options = {}, PrefilterReport* report = nullptr);
+
+/// Irradiance over π in a direction n, as spherical harmonics up to band 2 with every constant folded in: Σ coefficient[i] · basis[i], the basis 1, y, z, x, xy, yz, 3z² - 1, xz, x² - y² of n,
+/// in the order (0,0) (1,-1) (1,0) (1,1) (2,-2) (2,-1) (2,0) (2,1) (2,2) (Ramamoorthi and Hanrahan 2001). RGB, in the source's unit.
+using IrradianceSh = std::array<std::array<double, 3>, 9>;
+/// `source` as for prefilterCubemap(); values must be finite. deRing: bands 1 and 2 are damped (Sloan 2008) as little as leaves no direction negative; by nothing where none is.
+BURNISH_API Result<IrradianceSh> irradianceSh(const CubeLevel& source, bool deRing = false, int threads = 0);
+BURNISH_API Result<IrradianceSh> irradianceSh(const Image& latLong, bool deRing = false, int threads = 0);
+
+/// What checkPrefilter found of one level: the filtered texels against a sum in double over every texel of the source.
+struct PrefilterCheck {
+  struct Level {
+    int size = 0;
+    double roughness = 0;
+    int samples = 0;   ///< texels summed again; 0: nothing to compare with (roughness 0 of a source that is no cube of this size)
+    double rms = 0;    ///< rms error of the samples' channels over the level's rms value
+    double worst = 0;  ///< largest |error| / max(reference, 1e-6 of the level's mean), of the samples and of the level's brightest texel
+    bool within = true;  ///< rms <= PrefilterCheckOptions::error and worst <= ten times that
+  };
+  std::vector<Level> levels;
+  [[nodiscard]] bool within() const {
+    for (const Level& level : levels)
+      if (!level.within) return false;
+    return true;
+  }
+};
+
+struct PrefilterCheckOptions {
+  int samples = 64;         ///< random texels of each level
+  std::uint64_t seed = 1;   ///< which ones
+  double error = 1e-4;      ///< the bound on rms; ten times it on the worst texel
+  int threads = 0;          ///< 0: one for each core; the result does not depend on it
+  std::function<void(double share)> progress;  ///< called with 0 to 1 from the calling thread
+};
+
+/// Sums random texels of each level again, by brute force in double: an independent judge of prefilterCubemap(), slow. `cubemap` needs a lobe; `source` as for prefilterCubemap().
+BURNISH_API Result<PrefilterCheck> checkPrefilter(const CubeLevel& source, const Cubemap& cubemap, const PrefilterCheckOptions& options = {});
+BURNISH_API Result<PrefilterCheck> checkPrefilter(const Image& latLong, const Cubemap& cubemap, const PrefilterCheckOptions& options = {});
+
+/// What a file of surroundings holds: a cube, or a lat-long picture; linear, Rec.709.
+struct EnvironmentFile {
+  Cubemap cube;        ///< a cube's levels, the largest first; none for a lat-long picture
+  Image latLong;       ///< F32, three channels; empty for a cube
+  std::string layout;  ///< for people: "lat-long picture of 1024 x 512", "DDS cube, R16G16B16A16_FLOAT"
+  std::string writer;  ///< the program that the file says wrote it; may be empty
+  [[nodiscard]] bool isCube() const { return !cube.levels.empty(); }
+};
+
+struct EnvironmentFileOptions {
+  ImageDecoder* decoder = nullptr;  ///< of PNG, JPEG, HDR and EXR pictures; none: makeDecoderPool() for this call
+  DecodeLimits limits;              ///< of each picture; and of a cube's faces and of its texels as floats
+  bool asStored = false;            ///< keeps values that are negative or not finite, to look at a file
+};
+
+/// Reads surroundings: a lat-long picture (2:1), a cross (4:3 or 3:4), a strip (6:1 or 1:6), a DDS or KTX2 cube, a pattern of six files ("face_%s.exr"), a folder of them, or what
+/// writeCubemap wrote. docs/cubemaps.md has names, orientation, formats. 8-bit pictures are sRGB. Values that are NaN or negative become 0, infinite ones 65504, with a warning that counts
+/// them and names the first. Damaged, cut off, too large or wrongly shaped files are one Error that names the file and the place.
+BURNISH_API Result<EnvironmentFile> readEnvironment(const std::filesystem::path& file, Report& report, const EnvironmentFileOptions& options = {});
+/// The six faces in order (+X -X +Y -Y +Z -Z); one path is as above.
+BURNISH_API Result<EnvironmentFile> readEnvironment(std::span<const std::filesystem::path> faces, Report& report, const EnvironmentFileOptions& options = {});
+/// A cubemap alone: a lat-long picture is an error. Levels, roughness and lobe are those that were written.
+BURNISH_API Result<Cubemap> readCubemap(const std::filesystem::path& file, Report& report, const EnvironmentFileOptions& options = {});
+
+/// Writes a cubemap as its name ends: .dds, .ktx2, .exr (all levels in one picture), or a folder of six EXR files a level (any other name). `type`: F16 or F32. Lobe and roughness go with it
+/// (docs/cubemaps.md); the same cubemap gives the same bytes. Complete or absent, as every file of this library; a folder is written beside and exchanged as a whole. Values over 65504 are
+/// held there in half floats, with a warning. Errors: levels that do not halve, values that are not finite, a folder that holds anything else.
+BURNISH_API Result<void> writeCubemap(const std::filesystem::path& file, const Cubemap& cubemap, PixelType type, Report& report);
 
 }  // namespace burnish
