@@ -148,7 +148,7 @@ void CubeFilter::listSlices() {
   for (int level = 0; level < target_->levels; ++level) {
     const int size = std::max(1, target_->width >> level), over = source_->width / target_->width;
     const double row = (level ? pointsOf(level) : double(over) * over) * size;
-    const int rows = std::clamp(int(options_.sliceWork / std::max(row, 1.0)), 1, size);
+    const int rows = int(std::clamp(options_.sliceWork / row, 1.0, double(size)));
     for (int face = 0; face < 6; ++face)
       for (int y = 0; y < size; y += rows) slices_.push_back({level ? Step::Level : Step::LevelZero, level, face, y, std::min(rows, size - y)});
   }

@@ -17,3 +17,7 @@ vec3 inFace(vec3 d, int face) { return vec3(dot(d, kRight[face]), dot(d, kDown[f
 
 // A grid: x texels along a face's edge, y points beyond each edge, z points along a side with them (x + 2 y). The six faces lie side by side in the atlas.
 float gridCoordinate(int i, ivec3 grid) { return (2.0 * float(i - grid.y) + 1.0) / float(grid.x) - 1.0; }
+
+#define LARGEST 65024.0  // of what half floats hold, with room for rounding
+// Rounded to half floats here: drivers may cut off what is over.
+vec3 rounded(vec3 c) { return vec3(unpackHalf2x16(packHalf2x16(c.xy)), unpackHalf2x16(packHalf2x16(c.zz)).x); }

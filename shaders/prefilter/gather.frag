@@ -4,7 +4,6 @@
 layout(binding = UNIT_CUBE_FILTER) uniform samplerCube source;
 layout(location = 0) uniform int size;  // texels along the source's edge
 layout(location = 0) out vec4 outPoint;
-#define LARGEST 65000.0  // of a half float, with room for rounding
 
 vec3 kept(vec3 c) { return mix(clamp(c, vec3(0.0), vec3(LARGEST)), vec3(0.0), isnan(c)); }
 

@@ -10,5 +10,5 @@ void main() {
   vec4 sum = vec4(0.0);
   for (int y = 0; y < target.z; ++y)
     for (int x = 0; x < target.z; ++x) sum += texelFetch(points, first + ivec2(x, y), 0);
-  outLight = vec4(sum.rgb / sum.a, 1.0);
+  outLight = vec4(rounded(sum.rgb / sum.a), 1.0);
 }

@@ -24,28 +24,43 @@ float lobeAt(Part part, float x) {
 float lobeAt(Part part, float x) { return exp2(polynomial(part.inner[0], part.inner[1], x)) * (1.0 - x); }
 #endif
 
+// Coordinates along one axis of a face that a cone reaches, its axis at (r, height) seen along the other one, by angles about that; the first is larger where there are none. beyond: the last coordinate.
+vec2 reached(float r, float height, float sine, float beyond) {
+  float last = atan(beyond);
+  float radius = length(vec2(r, height));
+  if (sine >= radius) return vec2(-beyond, beyond);
+  float middle = atan(r, height), reach = asin(sine / radius);
+  if (middle - reach > last || middle + reach < -last) return vec2(1.0, -1.0);
+  return tan(clamp(vec2(middle - reach, middle + reach), -last, last));
+}
+
+// Inverse of gridCoordinate.
+float pointAt(float coordinate, ivec3 grid) { return (coordinate + 1.0) * (0.5 * float(grid.x)) + float(grid.y) - 0.5; }
+
 vec4 sumOf(Part part, vec3 reflected) {
   ivec3 grid = part.grid.xyz;
-  float count = float(grid.x), beyond = 1.0 + 2.0 * float(grid.y) / count, last = atan(beyond);
+  float beyond = 1.0 + 2.0 * float(grid.y) / float(grid.x);
   vec4 sum = vec4(0.0);
   for (int face = 0; face < 6; ++face) {
     vec3 r = inFace(reflected, face);
-    // Rows that the cone about r reaches, by angles about the face's right axis.
-    float radius = length(r.yz), middle = atan(r.y, r.z), reach = part.support.z < radius ? asin(part.support.z / radius) : 4.0;
-    if (middle - reach > last || middle + reach < -last || r.z + (abs(r.x) + abs(r.y)) * beyond <= 0.0) continue;
-    vec2 rows = (tan(clamp(vec2(middle - reach, middle + reach), -last, last)) + 1.0) * (0.5 * count) + float(grid.y) - 0.5;
-    int y0 = max(int(floor(rows.x)), 0), y1 = min(int(ceil(rows.y)), grid.z - 1);
+    // Rows and columns that the cone about r reaches.
+    vec2 rows = reached(r.y, r.z, part.support.z, beyond), columns = reached(r.x, r.z, part.support.z, beyond);
+    if (rows.x > rows.y || columns.x > columns.y || r.z + (abs(r.x) + abs(r.y)) * beyond <= 0.0) continue;
+    int y0 = max(int(floor(pointAt(rows.x, grid))), 0), y1 = min(int(ceil(pointAt(rows.y, grid))), grid.z - 1);
     for (int y = y0; y <= y1; ++y) {
-      // Columns: a quadratic for where the cone meets the row; all of them where it is no ellipse.
+      // Of a row: a quadratic for where the cone meets it, or, where that is no ellipse or nearly none, the half before the plane across r.
       float v = gridCoordinate(y, grid), v2 = 1.0 + v * v, along = r.y * v + r.z, a = part.support.y - r.x * r.x;
-      vec2 columns = vec2(-beyond, beyond);
-      if (a > 0.0) {
+      vec2 ends = columns;
+      if (a > 0.001) {
         float centre = r.x * along / a, root = centre * centre + (along * along - part.support.y * v2) / a;
         if (root < 0.0) continue;
-        columns = centre + vec2(-1.0, 1.0) * sqrt(root);
+        ends = clamp(centre + vec2(-1.0, 1.0) * sqrt(root), columns.x, columns.y);
+      } else if (r.x > 0.0) {
+        ends.x = max(ends.x, -along / r.x);
+      } else if (r.x < 0.0) {
+        ends.y = min(ends.y, -along / r.x);
       }
-      columns = (clamp(columns, -beyond, beyond) + 1.0) * (0.5 * count) + float(grid.y) - 0.5;
-      int x0 = max(int(floor(columns.x)), 0), x1 = min(int(ceil(columns.y)), grid.z - 1);
+      int x0 = int(clamp(floor(pointAt(ends.x, grid)), 0.0, float(grid.z))), x1 = int(clamp(ceil(pointAt(ends.y, grid)), -1.0, float(grid.z - 1)));
       ivec2 texel = ivec2(part.grid.w + face * grid.z, int(part.support.w) + y);
       vec4 rowSum = vec4(0.0);
       for (int x = x0; x <= x1; ++x) {
@@ -66,5 +81,5 @@ void main() {
   vec3 reflected = texelDirection(target.x, target.y);
   vec4 sum = vec4(0.0);
   for (int i = 0; i < target.z; ++i) sum += sumOf(parts[i], reflected);
-  outLight = vec4(clamp(sum.rgb / sum.a, vec3(0.0), vec3(65000.0)), 1.0);
+  outLight = vec4(rounded(clamp(sum.rgb / sum.a, vec3(0.0), vec3(LARGEST))), 1.0);
 }
