@@ -123,8 +123,9 @@ Result<void> CubeFilter::begin(const gl::Texture& source, const gl::Texture& tar
   if (target.target != GL_TEXTURE_CUBE_MAP || target.format != GL_RGBA16F || !powerOfTwo(target.width) || target.width > source.width)
     return fail(kPlace, fmt::format("the target is {} texels wide", target.width), fmt::format("give a GL_RGBA16F cube of a power of two up to the source's {}", source.width));
   if (auto done = prepare(source.width); !done) return done;
-  source_ = &source;
-  target_ = &target;
+  source_ = source.id();
+  target_ = target;
+  targetSize_ = target.width;
   levels_.assign(1, {});
   for (int k = 1; k < target.levels; ++k)
     levels_.push_back(cubeLobeParts(prefilter::Lobe::of(options_.lobe, shading::f64::environmentRoughness(double(k), double(target.levels - 1))), grids_, options_.effort));
@@ -145,8 +146,8 @@ Result<void> CubeFilter::begin(const gl::Texture& source, const gl::Texture& tar
 void CubeFilter::listSlices() {
   slices_.push_back({Step::Gather});
   slices_.push_back({Step::Coarsen});
-  for (int level = 0; level < target_->levels; ++level) {
-    const int size = std::max(1, target_->width >> level), over = source_->width / target_->width;
+  for (int level = 0; level < int(levels_.size()); ++level) {
+    const int size = std::max(1, targetSize_ >> level), over = grids_[0].size / targetSize_;
     const double row = (level ? pointsOf(level) : double(over) * over) * size;
     const int rows = int(std::clamp(options_.sliceWork / row, 1.0, double(size)));
     for (int face = 0; face < 6; ++face)
@@ -183,7 +184,7 @@ Result<void> CubeFilter::gather(Drawing& drawing) {
   if (!program) return fail(program.error());
   const int size = grids_[0].size;
   gl.ProgramUniform1i(*program, 0, size);
-  source_->bind(UNIT_CUBE_FILTER);
+  gl.BindTextureUnit(UNIT_CUBE_FILTER, source_);
   nearest_.bind(UNIT_CUBE_FILTER);
   drawing.into(atlasTarget_, {0, 0, 6 * size, size});
   drawing.triangle();
@@ -224,15 +225,18 @@ Result<void> CubeFilter::coarsen(Drawing& drawing) {
 
 Result<void> CubeFilter::drawFace(const Slice& slice, Drawing& drawing) {
   const GladGLContext& gl = device_.gl;
-  const int size = std::max(1, target_->width >> slice.level);
+  const int size = std::max(1, targetSize_ >> slice.level);
   const bool zero = slice.step == Step::LevelZero;
   auto program = drawing.use(zero ? sourceOf("level_zero") : sourceOf("lobe", {fmt::format("GGX {}", int(options_.lobe == ReflectionLobe::Ggx)), fmt::format("MOST_PARTS {}", kMostCubeParts)}));
   if (!program) return fail(program.error());
   // Made for the slice: the host may delete the target at any time after the last.
-  auto framebuffer = framebufferOf(device_, gl::Attachment(*target_, slice.level, slice.face), fmt::format("cube filter: level {} face {}", slice.level, slice.face));
+  gl::Attachment into = target_;
+  into.level = slice.level;
+  into.layer = slice.face;
+  auto framebuffer = framebufferOf(device_, into, fmt::format("cube filter: level {} face {}", slice.level, slice.face));
   if (!framebuffer) return fail(framebuffer.error());
   const auto& parts = levels_[std::size_t(slice.level)];
-  gl.ProgramUniform3i(*program, 0, slice.face, size, zero ? source_->width / target_->width : int(parts.size()));
+  gl.ProgramUniform3i(*program, 0, slice.face, size, zero ? grids_[0].size / targetSize_ : int(parts.size()));
   if (!zero) parts_.bindRange(GL_UNIFORM_BUFFER, BINDING_CUBE_FILTER, std::size_t(slice.level) * partsStride_, kMostCubeParts * sizeof(CubeLobePart));
   atlas_.bind(UNIT_CUBE_FILTER);
   drawing.into(*framebuffer, {0, slice.row, size, slice.rows});

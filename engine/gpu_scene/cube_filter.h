@@ -26,9 +26,9 @@ class CubeFilter {
  public:
   CubeFilter(gl::Device& device, gl::ProgramCache& programs, const CubeFilterOptions& options = {});
 
-  /// Both GL_RGBA16F cubes (the source may be of any format that is filtered as floats). source: level 0, of a power of two from 16 texels along an edge on, is read, with what is no number taken for
-  /// black and infinite or negative values held. target: as wide or a smaller power of two; level 0 becomes the source (its mean over solid angle where smaller), level k of `levels` what roughness
-  /// shading::environmentRoughness(k, levels - 1) makes of it. Both must live until the last slice; nothing is drawn yet. Forgets what an earlier begin() left undone.
+  /// source: a cube, a power of two from 16 texels along an edge on; level 0 is read, with what is no number taken for black, and infinite or negative values held. target: a GL_RGBA16F cube, as wide
+  /// or a smaller power of two; level 0 becomes the source (its mean over solid angle where smaller), level k of `levels` what roughness shading::environmentRoughness(k, levels - 1) makes of it.
+  /// Both must live until the last slice. Nothing is drawn yet; what an earlier begin() left undone is forgotten.
   Result<void> begin(const gl::Texture& source, const gl::Texture& target);
   /// The next piece of the work; true: that was the last. The bytes do not depend on what is drawn between slices or on their size; until the last one levels hold new and old faces side by side.
   Result<bool> filterSlice();
@@ -73,8 +73,9 @@ class CubeFilter {
   gl::Sampler nearest_;
   gl::Buffer parts_;
   std::size_t partsStride_ = 0;
-  const gl::Texture* source_ = nullptr;
-  const gl::Texture* target_ = nullptr;
+  GLuint source_ = 0;
+  gl::Attachment target_;
+  int targetSize_ = 0;
   std::vector<std::vector<CubeLobePart>> levels_;  // of the target
   std::vector<Slice> slices_;
   int next_ = 0;

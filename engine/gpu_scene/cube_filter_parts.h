@@ -27,9 +27,9 @@ struct CubeLobePart {
 /// What the error is traded against time with.
 struct CubeFilterEffort {
   double fineness = 1.5;  ///< points of a grid within the lobe's width (the deviation of a Gaussian as sharp as its peak); the source itself where no grid is fine enough
-  double reach = 4;       ///< GGX: points of the next grid within a part's radius
+  double far = 4e-4;      ///< GGX: error over the peak that the next grid may add beyond a part's radius, which is chosen for it
   double tail = 1e-4;     ///< Blinn-Phong: share of the lobe's integral that is cut off
-  int horizon = 32;       ///< texels along the edge of the grid for lobes that are cut off at the horizon while they are high
+  int horizon = 64;       ///< texels along the edge of the grid for lobes that the horizon cuts off while they are high; half of them where it does so under a quarter of the peak
 };
 
 /// At most kMostCubeParts parts; their sum is the lobe but for what effort.tail leaves out. `grids`: the finest first.
