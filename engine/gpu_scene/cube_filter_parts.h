@@ -24,6 +24,8 @@ struct CubeLobePart {
   std::array<float, 8> outer{};      ///< by x - shape.z
 };
 
+static_assert(sizeof(CubeLobePart) == 7 * 16);  // std140's
+
 /// What the error is traded against time with.
 struct CubeFilterEffort {
   double fineness = 1.5;  ///< points of a grid within the lobe's width (the deviation of a Gaussian as sharp as its peak); the source itself where no grid is fine enough
