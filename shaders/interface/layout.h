@@ -7,6 +7,7 @@
 #define BINDING_DRAW 1
 #define BINDING_MATERIAL 2
 #define BINDING_SHADOW 3
+#define BINDING_CUBE_FILTER 4
 
 // Storage blocks
 #define STORAGE_DEFORM_SOURCE 0
@@ -34,6 +35,7 @@
 #define UNIT_FORWARD_ENVIRONMENT 8  // unit 4 is the emissive map's on the forward path
 #define UNIT_EXPOSURE 9
 #define UNIT_POSE 0
+#define UNIT_CUBE_FILTER 0
 #define UNIT_BLOOM 0
 #define UNIT_DISPLAY 0
 #define UNIT_OCCLUSION 0  // what the denoise pass reads
