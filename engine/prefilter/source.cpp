@@ -46,10 +46,11 @@ class CubeSource final : public Source {
       for (const std::uint32_t i : brightTexels_) dark[i] = true;
     }
     constexpr std::size_t kPiece = 1 << 14;
+    const double perFace = 1 / double(solidAngle_.size());
     forEachPiece(int((points.count() + kPiece - 1) / kPiece), threads, [&](int piece) {
       for (std::size_t j = std::size_t(piece) * kPiece; j < std::min(points.count(), (std::size_t(piece) + 1) * kPiece); ++j) {
         const std::size_t i = points.order[j];
-        const double w = solidAngle_[i % solidAngle_.size()];
+        const double w = solidAngle_[i - std::size_t((double(i) + 0.5) * perFace) * solidAngle_.size()];  // the remainder, without a division
         for (std::size_t c = 0; c < 3; ++c) points.values[4 * j + c] = !dark.empty() && dark[i] ? 0.0 : (double(cube_.texels[3 * i + c]) - mean[int(c)]) * w;
         points.values[4 * j + 3] = w;
       }
@@ -67,7 +68,7 @@ class CubeSource final : public Source {
       const double v = (2.0 * y + 1) / size - 1;
       for (int x = 0; x < size; ++x) {
         const std::size_t i = std::size_t(row) * std::size_t(size) + std::size_t(x);
-        const double w = solidAngle_[i % solidAngle_.size()], u = (2.0 * x + 1) / size - 1;
+        const double w = solidAngle_[std::size_t(y) * std::size_t(size) + std::size_t(x)], u = (2.0 * x + 1) / size - 1;
         const float* p = cube_.texels.data() + 3 * i;
         arrays_.set(i, aboutY(cubeDirection(face, u, v)) / std::sqrt(u * u + v * v + 1), (glm::dvec3(p[0], p[1], p[2]) - mean) * w, w);
       }

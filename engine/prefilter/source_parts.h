@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "prefilter/harmonics.h"
 #include "prefilter/kernels.h"
 
 namespace burnish::prefilter {
@@ -38,14 +39,18 @@ std::vector<std::uint32_t> brightOf(std::size_t count, double mean, const Value&
 
 inline float largest(const float* rgb) { return std::max({rgb[0], rgb[1], rgb[2]}); }
 
+/// All texels must be set.
 struct TexelArrays {
-  std::vector<float> v;
+  Buffer<float> v;
   TexelsView view;
   void make(std::size_t count) {
     const std::size_t stride = count + 16;
-    v.assign(7 * stride, 0.0f);
+    v.resize(7 * stride);
     const float** members[7] = {&view.x, &view.y, &view.z, &view.r, &view.g, &view.b, &view.solidAngle};
-    for (std::size_t k = 0; k < 7; ++k) *members[k] = v.data() + k * stride;
+    for (std::size_t k = 0; k < 7; ++k) {
+      *members[k] = v.data() + k * stride;
+      std::fill_n(v.begin() + std::ptrdiff_t(k * stride + count), stride - count, 0.0f);
+    }
   }
   void set(std::size_t i, const glm::dvec3& direction, const glm::dvec3& rest, double solidAngle) {
     const std::size_t stride = v.size() / 7;
