@@ -241,7 +241,8 @@ void TileCuller::listBackground(std::span<const TileDepth> depths) {
   lists_.background.count = int(lists_.tiles.size()) - lists_.background.first;
 }
 
-const TileLists& TileCuller::cull(const scene::ViewFrame& view, std::span<const TileDepth> depths, std::span<const scene::LocalLight> lights, std::size_t shadowed, std::span<const DetailBox> details, TileSurfaces* surfaces) {
+const TileLists& TileCuller::cull(const scene::ViewFrame& view, std::span<const TileDepth> depths, std::span<const scene::LocalLight> lights, std::size_t shadowed, std::span<const DetailBox> details,
+                                  const std::function<TileSurfaces*()>& surfaces) {
   columns_ = (view.viewport.z + TILE_SIZE - 1) / TILE_SIZE;
   rows_ = (view.viewport.w + TILE_SIZE - 1) / TILE_SIZE;
   near_ = view.near;
@@ -249,7 +250,8 @@ const TileLists& TileCuller::cull(const scene::ViewFrame& view, std::span<const 
   pairs_.clear();
   for (std::size_t i = 0; i < lights.size(); ++i) cullLight(view, lights[i], std::uint16_t(i + 1));
   sortPairs();
-  if (surfaces) keepReached(lights, *surfaces);
+  // Reading normals costs what shading half a light a tile does.
+  if (surfaces && pairs_.size() > depths.size() / 2) keepReached(lights, *surfaces());
   detail_.assign(depths.size(), 0);
   for (const DetailBox& box : details) markDetail(view, box);
   buildLists(lights, shadowed);

@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <glm/glm.hpp>
 #include <span>
 #include <vector>
@@ -48,9 +49,9 @@ class TileCuller {
  public:
   /// No false negatives: every light whose sphere (and cone) touches a surface between the tile's depths is listed. Lights past 65534 are left out by the caller.
   /// `shadowed`: so many of the first lights cast shadows. `details`: around brushed and rough surfaces; tiles that may show one go into groups of their own.
-  /// `surfaces`: where there are any, lights that reach no pixel of a tile from its front are not listed for it.
+  /// `surfaces`: asked for where lights are many enough to pay for it; those that reach no pixel of a tile from its front are not listed for it then.
   const TileLists& cull(const scene::ViewFrame& view, std::span<const TileDepth> depths, std::span<const scene::LocalLight> lights, std::size_t shadowed = 0, std::span<const DetailBox> details = {},
-                        TileSurfaces* surfaces = nullptr);
+                        const std::function<TileSurfaces*()>& surfaces = {});
 
  private:
   struct Pair {

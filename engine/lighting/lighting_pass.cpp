@@ -112,8 +112,13 @@ std::vector<DetailBox> detailBoxes(const FrameContext& c) {
 Result<void> LightingPass::buildTiles(FrameContext& c) {
   if (auto read = readTileDepths(c); !read) return read;
   const bool local = c.plan.on("local_lights"), surfaces = local && !c.targets.texture("tile_depth");
-  if (surfaces) readTileSurfaces(c);
-  lists_ = &culler_.cull(c.view, tileDepths_, c.lights.local, c.shadows ? c.shadows->locals.size() : 0, detailBoxes(c), surfaces ? &surfaces_ : nullptr);
+  std::function<TileSurfaces*()> read;
+  if (surfaces)
+    read = [&] {
+      readTileSurfaces(c);
+      return &surfaces_;
+    };
+  lists_ = &culler_.cull(c.view, tileDepths_, c.lights.local, c.shadows ? c.shadows->locals.size() : 0, detailBoxes(c), read);
   c.stats.lightsInView += lists_->lightsInView;
   if (local)
     if (auto w = uploadLights(c); !w) return w;

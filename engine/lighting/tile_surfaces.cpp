@@ -15,6 +15,7 @@
 namespace burnish::lighting {
 namespace {
 
+constexpr int kRows = 4;
 constexpr float kNowhere = 1e18f;  // metres: where pixels without a surface are
 
 }  // namespace
@@ -65,25 +66,28 @@ WIDE void TileSurfaces::load(int tx, int ty) {
     }
     for (int i = w; i < TILE_SIZE; ++i) nx[i] = ny[i] = nz[i] = 0;
   }
+  const int end = (rows_ + kRows - 1) / kRows * kRows * TILE_SIZE;
+  for (int i = rows_ * TILE_SIZE; i < end; ++i) {
+    x_[i] = kNowhere;
+    y_[i] = z_[i] = nx_[i] = ny_[i] = nz_[i] = 0;
+  }
 }
 
 WIDE bool TileSurfaces::reached(const scene::LocalLight& light) const {
   const float px = light.position.x, py = light.position.y, pz = light.position.z;
   // What the shader's own floats may differ by: positions by 1e-5 of their distance, signs where the light grazes.
   const float slack = 1e-4f * (glm::length(light.position) + light.radius), radius = light.radius + slack, radius2 = radius * radius;
-  for (int row = 0; row < rows_; ++row) {
-    const int first = row * TILE_SIZE;
-    // One vector after another, without a branch.
-    float nearest[TILE_SIZE];
-    for (int k = 0; k < TILE_SIZE; ++k) {
-      const int i = first + k;
-      const float dx = px - x_[i], dy = py - y_[i], dz = pz - z_[i];
-      const float facing = nx_[i] * dx + ny_[i] * dy + nz_[i] * dz, d2 = dx * dx + dy * dy + dz * dz;
-      nearest[k] = facing > -slack ? d2 : 3e38f;
-    }
-    float least = nearest[0];
-    for (int k = 1; k < TILE_SIZE; ++k) least = nearest[k] < least ? nearest[k] : least;
-    if (least < radius2) return true;
+  // Four rows at a time, one vector after another, without a branch.
+  for (int row = 0; row < rows_; row += kRows) {
+    int any[TILE_SIZE] = {}, hit = 0;
+    for (int i = row * TILE_SIZE; i < (row + kRows) * TILE_SIZE; i += TILE_SIZE)
+      for (int k = 0; k < TILE_SIZE; ++k) {
+        const float dx = px - x_[i + k], dy = py - y_[i + k], dz = pz - z_[i + k];
+        const float facing = nx_[i + k] * dx + ny_[i + k] * dy + nz_[i + k] * dz, d2 = dx * dx + dy * dy + dz * dz;
+        any[k] |= int(facing > -slack) & int(d2 < radius2);
+      }
+    for (int k = 0; k < TILE_SIZE; ++k) hit |= any[k];
+    if (hit) return true;
   }
   return false;
 }
