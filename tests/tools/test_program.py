@@ -56,6 +56,9 @@ class Program(unittest.TestCase):
         self.out.mkdir()
 
     def run_it(self, *arguments, **more):
+        # The leak sanitizer's own tracer crashes now and then on OSMesa's threads when the program ends; leaks are looked for on EGL, with the same code.
+        if os.environ.get("BURNISH_SANITIZED") and "osmesa" in arguments:
+            more["env"] = {**more.get("env", os.environ), "ASAN_OPTIONS": os.environ.get("ASAN_OPTIONS", "") + ":detect_leaks=0"}
         return subprocess.run([BURNISH, *map(str, arguments)], capture_output=True, text=True, timeout=300, stdin=subprocess.DEVNULL, **more)
 
     def good(self, *arguments):
