@@ -9,9 +9,6 @@ using glm::dvec3;
 
 namespace {
 
-constexpr ReflectionLobe kLobes[2] = {ReflectionLobe::BlinnPhong, ReflectionLobe::Ggx};
-const char* nameOf(ReflectionLobe lobe) { return lobe == ReflectionLobe::Ggx ? "GGX" : "Blinn-Phong"; }
-
 template <class F>
 void eachTexel(const CubeLevel& level, const F& f) {
   std::size_t i = 0;
@@ -59,7 +56,7 @@ TEST_CASE("a disc of 0.53 degrees: levels hold the analytic light's highlight (H
         worstOfPoint = std::max(worstOfPoint, std::abs(value - profile.ofPoint(r)) / peak);
         largest = std::max(largest, value / peak);
       });
-      WARN(nameOf(lobe) << ", level " << k << " (" << level.size << "², half-width " << profile.halfWidth() / kCircle * 360 << " degrees): off the disc by " << 100 * worst << " % of the peak, off a point light by "
+      WARN(lobeName(lobe) << ", level " << k << " (" << level.size << "², half-width " << profile.halfWidth() / kCircle * 360 << " degrees): off the disc by " << 100 * worst << " % of the peak, off a point light by "
                         << 100 * worstOfPoint << " %; the largest texel has " << 100 * largest << " %");
       CHECK(worst < 1e-3);
       CHECK(largest > 0.5);  // there is a highlight
@@ -95,7 +92,7 @@ TEST_CASE("texels of a 256² source are lights of their own: levels hold the sum
         worst = std::max(worst, std::abs(value - truth) / drawn.peak());
         worstOfDisc = std::max(worstOfDisc, std::abs(value - drawn(r)) / drawn.peak());
       });
-      WARN(nameOf(lobe) << ", level " << k << ": off its texels' highlights by " << 100 * worst << " % of the peak, off the disc's by " << 100 * worstOfDisc << " %");
+      WARN(lobeName(lobe) << ", level " << k << ": off its texels' highlights by " << 100 * worst << " % of the peak, off the disc's by " << 100 * worstOfDisc << " %");
       CHECK(worst < 1e-3);
     }
   }

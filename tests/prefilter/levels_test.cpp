@@ -12,9 +12,6 @@ using glm::dvec3;
 
 namespace {
 
-constexpr ReflectionLobe kLobes[2] = {ReflectionLobe::BlinnPhong, ReflectionLobe::Ggx};
-const char* nameOf(ReflectionLobe lobe) { return lobe == ReflectionLobe::Ggx ? "GGX" : "Blinn-Phong"; }
-
 PrefilterOptions optionsOf(ReflectionLobe lobe, int size, int levels, double error = 1e-4) {
   PrefilterOptions o;
   o.lobe = lobe;
@@ -49,7 +46,7 @@ void judge(const std::string& map, const CubeLevel& source, int size, int levels
     std::string levelErrors;
     for (std::size_t k = 1; k < cube.levels.size(); ++k) {
       const LevelError e = errorOf(cube.levels[k], points, lobe, samples, interest);
-      INFO(map << ", " << nameOf(lobe) << ", level " << k << " of " << cube.levels[k].size << "²: rms " << e.rms << ", worst " << e.worst << ", along edges " << e.edge);
+      INFO(map << ", " << lobeName(lobe) << ", level " << k << " of " << cube.levels[k].size << "²: rms " << e.rms << ", worst " << e.worst << ", along edges " << e.edge);
       CHECK(e.rms < 1e-4);
       CHECK(e.worst < 1e-3);
       char text[48];
@@ -57,7 +54,7 @@ void judge(const std::string& map, const CubeLevel& source, int size, int levels
       levelErrors += text;
     }
     CHECK(cube.levels.back().size == size >> (levels - 1));
-    WARN(map << ", " << nameOf(lobe) << ", " << levels << " levels from " << size << "², rms/worst texel:" << levelErrors);
+    WARN(map << ", " << lobeName(lobe) << ", " << levels << " levels from " << size << "², rms/worst texel:" << levelErrors);
   }
 }
 
@@ -123,7 +120,7 @@ TEST_CASE("lat-long pictures: the sum is over the picture's own texels") {
       const Cubemap cube = prefilterCubemap(image, optionsOf(lobe, 32, 6)).value();
       for (std::size_t k = 1; k < cube.levels.size(); ++k) {
         const LevelError e = errorOf(cube.levels[k], points, lobe, 60, points.direction[std::size_t(height / 3) * std::size_t(width) + 5]);
-        INFO(width << " × " << height << ", " << nameOf(lobe) << ", level " << k << ": rms " << e.rms << ", worst " << e.worst);
+        INFO(width << " × " << height << ", " << lobeName(lobe) << ", level " << k << ": rms " << e.rms << ", worst " << e.worst);
         CHECK(e.rms < 1e-4);
         CHECK(e.worst < 1e-3);
       }
@@ -146,10 +143,10 @@ TEST_CASE("any list of roughness: 1/255 is the nearest texels, 1 the broadest lo
     CHECK(worst < (lobe == ReflectionLobe::Ggx ? 1e-3 : 1e-5));  // GGX's tail reaches the neighbours
     // Between texels: what the nearest hold.
     for (const float v : levels[1].texels) REQUIRE((std::isfinite(v) && v >= 0 && v <= 99.001f));
-    WARN(nameOf(lobe) << " at roughness 1/255: off the source by " << worst << " of 99");
+    WARN(lobeName(lobe) << " at roughness 1/255: off the source by " << worst << " of 99");
     for (std::size_t k = 2; k < levels.size(); ++k) {
       const LevelError e = errorOf(levels[k], points, lobe, 60, {0, 1, 0});
-      INFO(nameOf(lobe) << ", roughness " << levels[k].roughness << ": rms " << e.rms << ", worst " << e.worst);
+      INFO(lobeName(lobe) << ", roughness " << levels[k].roughness << ": rms " << e.rms << ", worst " << e.worst);
       CHECK(e.rms < 1e-4);
       CHECK(e.worst < 1e-3);
     }
@@ -207,7 +204,7 @@ TEST_CASE("no seams: the step across each of the 12 edges is the step inside (H7
           }
           edges += face < other;
           const double ratio = across[0] / inside[0], truth = across[1] / inside[1], gradient = across[2] / inside[2];
-          INFO(nameOf(lobe) << ", level " << k << " (" << n << "²), faces " << face << " and " << other << ": steps across over steps inside " << ratio << ", of the true light " << truth << ", in the middle over angles " << gradient);
+          INFO(lobeName(lobe) << ", level " << k << " (" << n << "²), faces " << face << " and " << other << ": steps across over steps inside " << ratio << ", of the true light " << truth << ", in the middle over angles " << gradient);
           CHECK(ratio / truth == Approx(1).margin(0.02));
           if (n >= 16) CHECK(gradient == Approx(1).margin(0.02));
           worst = std::max(worst, std::abs(ratio / truth - 1));
@@ -215,7 +212,7 @@ TEST_CASE("no seams: the step across each of the 12 edges is the step inside (H7
           worstGradient = std::max(worstGradient, std::abs(gradient - 1));
         }
       CHECK(edges == 12);
-      WARN(nameOf(lobe) << ", level " << k << " (" << n << "²): steps across over steps inside, off the true ratio by at most " << worst << "; off 1 by " << worstRaw << ", as gradients in the middles by " << worstGradient);
+      WARN(lobeName(lobe) << ", level " << k << " (" << n << "²): steps across over steps inside, off the true ratio by at most " << worst << "; off 1 by " << worstRaw << ", as gradients in the middles by " << worstGradient);
     }
   }
 }
@@ -236,7 +233,7 @@ TEST_CASE("nothing below zero before the clamp") {
         mean[i % 3] += 3 * double(l.texels[i]) / double(l.texels.size());
       }
       for (int c = 0; c < 3; ++c) {
-        INFO(nameOf(lobe) << ", roughness " << l.roughness << ", channel " << c << ": least " << lowest[c] / mean[c] << " of the mean");
+        INFO(lobeName(lobe) << ", roughness " << l.roughness << ", channel " << c << ": least " << lowest[c] / mean[c] << " of the mean");
         CHECK(lowest[c] >= -1e-6 * mean[c]);
       }
     }
@@ -265,7 +262,7 @@ TEST_CASE("the error falls as asked") {
       const Cubemap cube = prefilterCubemap(source, optionsOf(lobe, 64, 6, error)).value();
       for (std::size_t k = 1; k < cube.levels.size(); ++k) {
         const LevelError e = errorOf(cube.levels[k], points, lobe, 12, {0, 0, 1});
-        INFO(nameOf(lobe) << ", " << error << " asked, level " << k << ": rms " << e.rms << ", worst " << e.worst);
+        INFO(lobeName(lobe) << ", " << error << " asked, level " << k << ": rms " << e.rms << ", worst " << e.worst);
         CHECK(e.rms < std::max(error, 4e-7));  // levels are floats, and so are sums over texels nearby
       }
     }
@@ -281,7 +278,7 @@ TEST_CASE("single texels from 1e5 to 1e30 keep their energy and leave the sky al
       const Cubemap cube = prefilterCubemap(source, optionsOf(lobe, 64, 7)).value();
       for (std::size_t k = 1; k < cube.levels.size(); ++k) {
         const LevelError e = errorOf(cube.levels[k], points, lobe, 24, points.direction[texel]);
-        INFO(value << ", " << nameOf(lobe) << ", level " << k << ": rms " << e.rms << ", worst " << e.worst);
+        INFO(value << ", " << lobeName(lobe) << ", level " << k << ": rms " << e.rms << ", worst " << e.worst);
         CHECK(e.rms < 1e-4);
         CHECK(e.worst < 1e-3);
         for (const float v : cube.levels[k].texels) REQUIRE((std::isfinite(v) && v >= 0));

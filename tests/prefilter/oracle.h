@@ -14,6 +14,9 @@ namespace burnish::test {
 
 inline constexpr double kCircle = 6.28318530717958647692;
 
+inline constexpr ReflectionLobe kLobes[2] = {ReflectionLobe::BlinnPhong, ReflectionLobe::Ggx};
+inline const char* lobeName(ReflectionLobe lobe) { return lobe == ReflectionLobe::Ggx ? "GGX" : "Blinn-Phong"; }
+
 /// Unit vector to a texel's centre, by OpenGL 4.5's table 8.19 read the other way.
 inline glm::dvec3 centreOf(int size, int face, int x, int y) {
   const double u = (x + 0.5) / size * 2 - 1, v = (y + 0.5) / size * 2 - 1;
