@@ -1,6 +1,8 @@
 // Large meshes are drawn in parts: what is in view is in them, what is not is left out, and the picture stays.
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
+#include <algorithm>
 #include <iostream>
 #include <random>
 
