@@ -155,9 +155,12 @@ void runAll(std::vector<Task>& tasks, const Source& source, const Cubemap& cubem
       if (calling && options.progress) options.progress(static_cast<double>(std::min(next.load(), tasks.size())) / static_cast<double>(tasks.size()));
     }
   };
-  std::vector<std::jthread> helpers;
-  for (std::size_t i = 1; i < std::min(most, tasks.size()); ++i) helpers.emplace_back(work, false);
-  work(true);
+  {
+    std::vector<std::jthread> helpers;
+    for (std::size_t i = 1; i < std::min(most, tasks.size()); ++i) helpers.emplace_back(work, false);
+    work(true);
+  }
+  if (options.progress) options.progress(1);  // the helpers may have left nothing to the caller
 }
 
 struct Moments {

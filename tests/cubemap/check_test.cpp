@@ -135,8 +135,7 @@ TEST_CASE("The check does not depend on threads, and tells how far it is", "[cub
     last = 0;
     const auto checked = checkPrefilter(source, cube, how);
     REQUIRE(checked);
-    CHECK(last <= 1);
-    CHECK(last > 0);
+    CHECK(last == 1);
     std::vector<double> numbers;
     for (const auto& level : checked->levels) numbers.insert(numbers.end(), {level.rms, level.worst});
     if (first.empty()) first = numbers;
