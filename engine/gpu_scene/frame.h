@@ -1,6 +1,6 @@
 // What the passes of one view share: the plan, its resolved programs and targets, and what is drawn. Passes meet here and nowhere else.
 #pragma once
-#include <burnish/frame.h>
+#include <burnish/plan.h>
 
 #include <array>
 #include <map>

@@ -1,6 +1,6 @@
 // The renderer: executes frame plans on one GL context. One object per context; several contexts, threads and renderers live side by side. No globals.
 #pragma once
-#include <burnish/frame.h>
+#include <burnish/plan.h>
 
 namespace burnish {
 

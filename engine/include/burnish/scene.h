@@ -5,6 +5,7 @@
 #include <burnish/image.h>
 #include <burnish/material.h>
 
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -310,6 +311,44 @@ struct Fog {
   float start = 0;      ///< metres from the eye that are clear
 };
 
+/// A place from which the surroundings were captured, and the box on whose walls reflections of it are looked up (docs/probes.md).
+struct ReflectionProbe {
+  std::string name;
+  glm::dvec3 center{0};    ///< of the box, world, metres
+  glm::dmat3 axes{1};      ///< of the box: columns unit and orthogonal, world
+  glm::dvec3 halfSize{1};  ///< metres along the axes, at least 0
+  glm::dvec3 capture{0};   ///< where the surroundings were captured, world, metres
+  glm::dvec3 fade{0.5};    ///< metres inside each pair of faces over which it takes over from larger boxes; held at the half size
+  double margin = 0.25;    ///< metres around the box over which it gives way to the sky, where there is no other box
+  Cubemap radiance;        ///< cd/m², prefiltered, axes of the world; no levels: not baked, and left out by the renderer
+  IrradianceSh irradiance{};  ///< of the capture, over π, cd/m²
+};
+
+/// Irradiance at the points of a lattice, with how far each of them sees, so that light does not pass through walls.
+struct AmbientGrid {
+  static constexpr int kDistanceSize = 16;  ///< texels along a side of an octahedral map of distances
+  struct Point {
+    bool valid = false;              ///< false: inside a wall or not baked; it lights nothing
+    std::array<glm::vec3, 9> irradiance{};  ///< over π, cd/m²; basis of IrradianceSh
+    std::vector<glm::vec2> distances;  ///< metres: mean and mean square of the distance over each texel's directions, kDistanceSize² texels (docs/probes.md has the mapping)
+  };
+  std::string name;
+  glm::dvec3 origin{0};      ///< of point (0, 0, 0), world, metres
+  glm::dmat3 axes{1};        ///< columns unit and orthogonal, world
+  glm::dvec3 spacing{1};     ///< metres between neighbours along the axes, above 0
+  glm::ivec3 counts{0};      ///< points along the axes, at least 1 each
+  double margin = 0.25;      ///< metres around the lattice over which it gives way to what is there without it
+  std::vector<Point> points;  ///< x fastest, then y; counts.x · counts.y · counts.z, or none: not baked
+  [[nodiscard]] glm::dvec3 position(glm::ivec3 i) const { return origin + axes * (glm::dvec3(i) * spacing); }
+};
+
+/// The probes of a scene. burnish/probe.h places, bakes, reads and writes them.
+struct ProbeSet {
+  std::vector<ReflectionProbe> reflections;
+  std::optional<AmbientGrid> grid;
+  std::uint64_t revision = 0;  ///< advance it when anything here changes
+};
+
 /// Tells scenes apart, so that a renderer never takes one scene's tables for another's. Copies get an identity of their own; moving keeps it.
 class BURNISH_API Identity {
  public:
@@ -341,6 +380,7 @@ struct Scene {
   Table<Animation> animations;
   Environment environment;
   Fog fog;
+  ProbeSet probes;
 
   /// Product of the locals from the root down. Cycles are cut (the API cannot make one unless told to).
   [[nodiscard]] BURNISH_API glm::dmat4 world(Id<Node> node) const;

@@ -1,0 +1,78 @@
+// Probes: finding places for them, baking their light with the engine's own renderer over several bounces, and the folder that holds them (docs/probes.md, docs/probe_files.md).
+// The types are in scene.h. Units: metres, cd/m². Nothing here keeps a thread when it returns; contexts must be current on the calling thread.
+#pragma once
+#include <burnish/renderer.h>
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace burnish {
+
+struct PlacementOptions {
+  bool rooms = true;            ///< a box and a probe for each room that is found
+  bool grid = true;             ///< a lattice over what is inside
+  double gridSpacing = 0;       ///< metres; 0: chosen from the rooms' sizes
+  int maxGridPoints = 4096;     ///< a spacing that is too small for this is enlarged, with a warning
+  int threads = 0;              ///< 0: one for each core; the result does not depend on it
+  std::function<void(double share)> progress;  ///< called with 0 to 1 from the calling thread
+};
+/// Finds rooms in the scene's geometry: places for reflection probes with boxes, and a lattice without the points that are inside something. Probes that the scene has already (from nodes of
+/// its file) stay and count. Not baked: radiance is empty; the grid's points have `valid` and `distances`.
+BURNISH_API Result<ProbeSet> placeProbes(const Scene& scene, const PlacementOptions& options, Report& report);
+
+struct BakeOptions {
+  Quality quality;           ///< rungs of the lighting equation; what belongs to the picture (antialiasing, bloom, screen occlusion) is left out
+  int size = 128;            ///< texels along an edge of a reflection probe's capture, a power of two, 16 to 2048
+  int ambientSize = 16;      ///< likewise of a grid point's
+  ReflectionLobe lobe = ReflectionLobe::BlinnPhong;
+  int bounces = 0;           ///< 0: until the estimated rest is under `until`
+  double until = 0.01;       ///< estimated rest of the light, change · q / (1 - q), over all of it
+  int maxBounces = 64;       ///< more are an error where `bounces` is 0
+  double albedoLimit = 0.98; ///< what surfaces reflect at most in all (diffuse and specular) while baking, 0 to 1
+  int threads = 0;           ///< of the filter; 0: one for each core; the result does not depend on it
+};
+
+/// What a bounce changed.
+struct BounceReport {
+  int bounce = 0;        ///< from 1: light that comes straight from lights, emission and sky
+  double change = 0;     ///< of the probes' light against the bounce before, over all of it: rms of irradiance over all capture points
+  double ratio = 0;      ///< q: this change over the one before; 0 in the first two bounces
+  double rest = 0;       ///< estimated: change · q / (1 - q); infinite while q is not known
+  int captured = 0, reused = 0;  ///< capture points
+};
+
+struct BakeReport {
+  std::vector<BounceReport> bounces;
+  double captureMs = 0, filterMs = 0, storeMs = 0;  ///< CPU time of the process
+  double wallMs = 0;
+};
+
+/// Which part of a bake a call does.
+struct BakeJob {
+  std::filesystem::path folder;
+  bool resume = false;       ///< takes what an earlier, unfinished or outdated bake left in the folder where it still holds; without it a folder with probes is an error
+  int shard = 0, shards = 1; ///< with `bounce`: this part of the capture points, 0 <= shard < shards
+  int bounce = 0;            ///< 0: all of them; else this one alone, whose part is written for mergeBounce()
+  std::function<void(int bounce, int done, int total, double secondsLeft)> progress;  ///< secondsLeft negative: not known yet
+  std::function<void(const BounceReport&)> bounced;  ///< after each bounce
+};
+
+/// Bakes the scene's probes (scene.probes, whose light is not looked at) into a folder. The same scene and options give the same bytes, whether in one go, resumed or in shards.
+BURNISH_API Result<BakeReport> bakeProbes(const ProcAddress& getProcAddress, const Scene& scene, const BakeOptions& options, const BakeJob& job, Report& report);
+/// Joins the parts of the bounce that all shards of a folder have written, and permits the next. Needs neither scene nor context. When the bake is over it writes the set: `finished` says so.
+struct MergeReport {
+  BounceReport bounce;
+  bool finished = false;
+};
+BURNISH_API Result<MergeReport> mergeBounce(const std::filesystem::path& folder, Report& report);
+
+/// Reads a folder that bakeProbes() or writeProbes() wrote.
+BURNISH_API Result<ProbeSet> readProbes(const std::filesystem::path& folder, Report& report);
+/// Writes a set as a folder: complete or absent.
+BURNISH_API Result<void> writeProbes(const std::filesystem::path& folder, const ProbeSet& probes, Report& report);
+
+}  // namespace burnish
