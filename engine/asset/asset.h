@@ -94,7 +94,7 @@ struct Light {
   enum class Kind : std::uint8_t { Directional, Point, Spot } kind = Kind::Point;
   glm::vec3 color{1};
   float intensity = 1, range = 0, innerCone = 0, outerCone = 0.7853982f;
-  bool shadow = false;                               ///< extras.burnish.shadow
+  bool shadow = false, standIn = false;              ///< extras.burnish.shadow, .standIn
   float sourceRadius = -1, angularDiameter = -1;     ///< extras.burnish's, metres and radians; negative: not given
 };
 /// scene.extras.burnish.fog, as burnish::Fog.

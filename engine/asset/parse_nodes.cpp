@@ -55,14 +55,16 @@ void parseCamera(const At& at, Check& check, Document& doc) {
   check.withObject(at, "orthographic", [&](const At& o) { parseOrthographic(o, check, c); });
 }
 
-/// `extras.burnish` of a light: shadow (true or false), sourceRadius (m), angularDiameter (rad). A fault in it is a warning, for extras are free-form.
+/// `extras.burnish` of a light: shadow and standIn (true or false), sourceRadius (m), angularDiameter (rad). A fault in it is a warning, for extras are free-form.
 void parseLightExtras(const At& at, Check& check, Light& l) {
   check.withOwnExtras(at, [&](const At& ours) {
-    if (const auto shadow = ours->find("shadow"); shadow != ours->end()) {
-      if (shadow->is_boolean())
-        l.shadow = shadow->get<bool>();
+    for (const auto& [key, into] : {std::pair("shadow", &l.shadow), std::pair("standIn", &l.standIn)}) {
+      const auto found = ours->find(key);
+      if (found == ours->end()) continue;
+      if (found->is_boolean())
+        *into = found->get<bool>();
       else
-        check.warn(At(ours, "shadow", *shadow).path(), fmt::format("{} where true or false is expected: it is left out", shadow->type_name()));
+        check.warn(At(ours, key, *found).path(), fmt::format("{} where true or false is expected: it is left out", found->type_name()));
     }
     for (const auto& [key, into] : {std::pair("sourceRadius", &l.sourceRadius), std::pair("angularDiameter", &l.angularDiameter)}) {
       const auto found = ours->find(key);

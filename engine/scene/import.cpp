@@ -208,6 +208,7 @@ class Importer {
     l.outerCone = std::clamp(in.outerCone, 0.0f, 1.5707964f);
     l.innerCone = std::clamp(in.innerCone, 0.0f, l.outerCone);
     l.castsShadow = in.shadow;
+    l.standIn = in.standIn;
     if (in.sourceRadius >= 0) l.sourceRadius = in.sourceRadius;
     if (in.angularDiameter >= 0) l.angularDiameter = in.angularDiameter;
     return l;

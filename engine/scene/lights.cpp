@@ -57,8 +57,9 @@ void setCone(LocalLight& l, const Light& light, const glm::dmat4& world) {
 LightSet gatherLights(const Scene& scene, const Derived& derived, const ViewFrame& frame, const Quality& quality, Report& report, Reach reach) {
   LightSet set;
   const Frustum frustum(frame);
+  const bool probes = scene.probes.lit();
   scene.lights.each([&](Id<Light> id, const Light& light) {
-    if (!light.enabled) return;
+    if (!light.enabled || (light.standIn && probes)) return;
     const glm::dmat4 world = scene.nodes.has(light.node) ? derived.world(light.node) : glm::dmat4(1);
     const glm::vec3 power = glm::max(light.color, glm::vec3(0)) * light.intensity;
     if (!finite(light.color) || !std::isfinite(light.intensity) || !finite(power) || !finite(glm::vec3(glm::dvec3(world[3]) - frame.eye))) {

@@ -689,15 +689,19 @@ class Gltf:
             self.cameras[-1]["perspective"]["zfar"] = far
         self.node(name, eye, aim(np.subtract(target, eye)), parent=parent, camera=len(self.cameras) - 1)
 
-    def light(self, name, kind, at=(0, 0, 0), toward=None, colour=(1, 1, 1), intensity=1.0, reach=None, cone=None, shadow=False, parent=None):
-        """Add a punctual light; cone is (inner, outer) half angles in degrees; shadow: it asks to cast shadows."""
+    def light(self, name, kind, at=(0, 0, 0), toward=None, colour=(1, 1, 1), intensity=1.0, reach=None, cone=None, shadow=False, parent=None,
+              stand_in=False):
+        """Add a punctual light; cone is (inner, outer) half angles in degrees; shadow: it asks to cast shadows; stand_in: it stands for light that probes bring."""
         out = {"name": name, "type": kind, "color": list(colour), "intensity": intensity}
         if reach:
             out["range"] = reach
         if cone:
             out["spot"] = {"innerConeAngle": math.radians(cone[0]), "outerConeAngle": math.radians(cone[1])}
-        if shadow:
-            out["extras"] = {"burnish": {"shadow": True}}
+        ours = {"shadow": True} if shadow else {}
+        if stand_in:
+            ours["standIn"] = True
+        if ours:
+            out["extras"] = {"burnish": ours}
         self.lights.append(out)
         self.used.add("KHR_lights_punctual")
         turn = None if toward is None else aim(toward)

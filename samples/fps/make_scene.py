@@ -885,7 +885,7 @@ def build_yard(g, mats):
 
 # ---------------------------------------------------------------- light
 
-# Stand-ins for the first bounce, to be dropped once the rooms' probes are baked.
+# Stand-ins for bounced light: off while the rooms' probes have light.
 FILLS = [("hall_north", (0.0, 2.5, -3.2), 95.0, 5.6), ("hall_south", (-0.4, 2.5, 4.3), 120.0, 6.4), ("corridor", (-2.0, 1.9, -9.3), 22.0, 3.6),
          ("store", (-7.1, 2.0, -3.0), 75.0, 4.4), ("vault", (-2.0, 2.6, -14.6), 120.0, 6.2)]
 
@@ -908,11 +908,11 @@ def build_lights(g):
     to_sun, door = sun_direction(), np.array([4.15, 1.35, -2.0])
     g.light("sun_shaft", "spot", door + 16.0 * to_sun, -to_sun, SUN_COLOUR, 330000.0, 30.0, (2.7, 3.7), shadow=True)
     g.light("sun_yard", "spot", (23.0, 9.0, -9.0), (-10.0, -9.0, 4.0), SUN_COLOUR, 24000.0, 19.0, (28, 40))
-    g.light("sky_door", "point", (4.6, 2.2, -2.0), None, (0.75, 0.86, 1.0), 90.0, 5.0)
+    g.light("sky_door", "point", (4.6, 2.2, -2.0), None, (0.75, 0.86, 1.0), 90.0, 5.0, stand_in=True)
     at = np.array(ARMILLARY_SPOT)
     g.light("armillary_spot", "spot", at, np.array((0.75, 1.5, -2.7)) - at, WARM, 1500.0, 5.5, (10, 20))
     for name, at, cd, reach in FILLS:
-        g.light("fill_" + name, "point", at, None, (1.0, 0.86, 0.70), cd, reach)
+        g.light("fill_" + name, "point", at, None, (1.0, 0.86, 0.70), cd, reach, stand_in=True)
     g.light("lantern_light", "point", (1.35, 0.92, 2.42), None, TUNGSTEN, 60.0, 3.4)
     for k, z in enumerate((-7.8, -10.9)):
         g.light("cage_lamp_light_%d" % k, "spot", (-2.0, 2.70, z), (0, -1, 0), WARM, 380.0, 3.6, (30, 62))

@@ -281,9 +281,9 @@ TEST_CASE("a light's extras say whether it casts shadows and how large it is", "
     file["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}, {"extras", {{"burnish", ours}}}}};
     return readJson(file);
   };
-  const Reading r = with({{"shadow", true}, {"sourceRadius", 0.25}, {"angularDiameter", 0.5}});
+  const Reading r = with({{"shadow", true}, {"standIn", true}, {"sourceRadius", 0.25}, {"angularDiameter", 0.5}});
   REQUIRE(r.asset);
-  CHECK((r.asset->lights[0].shadow && r.asset->lights[0].sourceRadius == 0.25f && r.asset->lights[0].angularDiameter == 0.5f && r.report.empty()));
+  CHECK((r.asset->lights[0].shadow && r.asset->lights[0].standIn && r.asset->lights[0].sourceRadius == 0.25f && r.asset->lights[0].angularDiameter == 0.5f && r.report.empty()));
   const Reading plain = with(Json::object());
   CHECK((!plain.asset->lights[0].shadow && plain.asset->lights[0].sourceRadius < 0));
   const Reading odd = with({{"shadow", "yes"}, {"sourceRadius", -1}});

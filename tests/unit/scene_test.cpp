@@ -6,6 +6,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "scene/transforms.h"
+#include "scene/visibility.h"
 
 using namespace burnish;
 
@@ -204,4 +205,29 @@ TEST_CASE("Tiny and huge meshes validate alike", "[scene]") {
     REQUIRE(r->indices.size() == 3);
     CHECK(r->normals[0] == glm::vec3(0, 0, 1));
   }
+}
+
+TEST_CASE("Lights that stand in for baked light are off while there is any", "[scene]") {
+  Scene s;
+  Light lamp;
+  lamp.range = 5;
+  s.lights.add(lamp);
+  lamp.standIn = true;
+  s.lights.add(lamp);
+  const auto lit = [&s] {
+    scene::Derived derived;
+    derived.update(s);
+    Report report;
+    return scene::gatherLights(s, derived, scene::frameOf(lookAt({0, 0, 3}, {0, 0, 0}), {16, 16}), {}, report).local.size();
+  };
+  CHECK(lit() == 2);
+  s.probes.reflections.emplace_back();
+  CHECK(lit() == 2);  // a place without light
+  s.probes.reflections[0].radiance.levels.emplace_back();
+  CHECK(lit() == 1);
+  s.probes.reflections.clear();
+  s.probes.grid.emplace();
+  CHECK(lit() == 2);
+  s.probes.grid->points.emplace_back();
+  CHECK(lit() == 1);
 }

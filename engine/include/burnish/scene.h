@@ -261,6 +261,7 @@ struct Light {
   float outerCone = 0.7853982f;  ///< radians, at most pi/2
   bool enabled = true;
   bool castsShadow = false;      ///< what stands in its light keeps it from what is behind (docs/shadows.md)
+  bool standIn = false;          ///< stands for light that probes bring (bounced light, the sky in a doorway): off while the scene has probes with light, and while they are baked
   // Its size, which is how soft its shadows are with shadow=pcss; the light itself stays punctual.
   float sourceRadius = 0.02f;        ///< metres, of a point or spot light
   float angularDiameter = 0.0093f;   ///< radians, of a directional light; the sun's from the earth
@@ -347,6 +348,12 @@ struct ProbeSet {
   std::vector<ReflectionProbe> reflections;
   std::optional<AmbientGrid> grid;
   std::uint64_t revision = 0;  ///< advance it when anything here changes
+  /// Some of it has been baked.
+  [[nodiscard]] bool lit() const {
+    for (const ReflectionProbe& probe : reflections)
+      if (!probe.radiance.levels.empty()) return true;
+    return grid && !grid->points.empty();
+  }
 };
 
 /// Tells scenes apart, so that a renderer never takes one scene's tables for another's. Copies get an identity of their own; moving keeps it.
