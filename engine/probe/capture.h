@@ -12,8 +12,8 @@ Quality captureQuality(const Quality& quality);
 
 class Capture {
  public:
-  /// `scene` must outlive it and is what limited() gave; its probes light the captures (probes without light are black: the sky does not get into their boxes).
-  static Result<std::unique_ptr<Capture>> create(const ProcAddress& getProcAddress, const Scene& scene, const Quality& quality);
+  /// `scene` is what limited() gave; its probes light the captures, and what they do not reach the sky lights. `quality`: of the picture; captureQuality() is taken here.
+  static Result<std::unique_ptr<Capture>> create(const ProcAddress& getProcAddress, Scene scene, const Quality& quality);
   virtual ~Capture() = default;
   /// The probes' light from now on.
   virtual void setProbes(ProbeSet probes) = 0;
