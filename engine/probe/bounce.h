@@ -40,6 +40,8 @@ Result<BounceReport> judge(std::span<const BounceReport> before, const Change& c
 /// Light that few points have and many get (a lamp in a far corner) adds more to the rms for a bounce or two than the bounce before, and no energy is made. Where it is, growth has no end.
 constexpr int kGrowing = 3;
 
+/// The first ratio compares light of emission and sky, which points see, with light of surfaces: it takes a second one to stop by.
+constexpr int kLeastBounces = 3;
 /// true: another bounce is wanted. Past options.maxBounces the answer is no: the caller says that the bake did not converge.
 bool wantsMore(std::span<const BounceReport> bounces, const BakeOptions& options);
 
