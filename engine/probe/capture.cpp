@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -31,7 +32,11 @@ glm::dmat3 faceAxes(int face) {
 
 class RendererCapture final : public Capture {
  public:
-  RendererCapture(ProcAddress address, Scene scene, const Quality& quality) : address_(std::move(address)), scene_(std::move(scene)), quality_(captureQuality(quality)), near_(nearOf(scene_)) {}
+  RendererCapture(ProcAddress address, Scene scene, const Quality& quality) : address_(std::move(address)), scene_(std::move(scene)), quality_(captureQuality(quality)), near_(nearOf(scene_)) {
+    // The disc is a directional light's: in a capture it would light once more. What lights is captured whether it is shown or not.
+    scene_.environment.sun.reset();
+    scene_.environment.background = true;
+  }
 
   Result<void> start() {
     auto made = Renderer::create(address_, {.hostState = HostState::Declared});
@@ -56,7 +61,7 @@ class RendererCapture final : public Capture {
     takeWarnings();
     auto picture = (*target)->read();
     if (!picture) return fail(picture.error());
-    return faces(*picture, size);
+    return facesOf(*picture, size, mended_);
   }
 
  private:
@@ -70,25 +75,6 @@ class RendererCapture final : public Capture {
       target = std::move(*made);
     }
     return target.get();
-  }
-
-  /// `picture`: rows from the top.
-  CubeLevel faces(const Image& picture, int size) {
-    CubeLevel cube{size, 0, std::vector<float>(std::size_t(size) * std::size_t(size) * 18)};
-    mended_ = 0;
-    float* out = cube.texels.data();
-    for (int face = 0; face < 6; ++face)
-      for (int y = 0; y < size; ++y) {
-        const int row = picture.height - 1 - (face / 3 * size + y);
-        const float* in = picture.f32() + (std::size_t(row) * std::size_t(picture.width) + std::size_t(face % 3 * size)) * 4;
-        for (int x = 0; x < size; ++x, in += 4)
-          for (int c = 0; c < 3; ++c, ++out) {
-            const bool good = in[c] >= 0 && std::isfinite(in[c]);
-            *out = good ? in[c] : 0;
-            mended_ += !good;
-          }
-      }
-    return cube;
   }
 
   void takeWarnings() {
@@ -119,6 +105,24 @@ std::array<View, 6> faceViews(glm::dvec3 point, float near, int size, glm::ivec2
     v.viewport = {corner.x + face % 3 * size, corner.y + face / 3 * size, size, size};
   }
   return views;
+}
+
+CubeLevel facesOf(const Image& picture, int size, std::size_t& mended) {
+  CubeLevel cube{size, 0, std::vector<float>(std::size_t(size) * std::size_t(size) * 18)};
+  mended = 0;
+  float* out = cube.texels.data();
+  for (int face = 0; face < 6; ++face)
+    for (int y = 0; y < size; ++y) {
+      const int row = picture.height - 1 - (face / 3 * size + y);
+      const float* in = picture.f32() + (std::size_t(row) * std::size_t(picture.width) + std::size_t(face % 3 * size)) * 4;
+      for (int x = 0; x < size; ++x, in += 4)
+        for (int c = 0; c < 3; ++c, ++out) {
+          const bool good = in[c] >= 0 && std::isfinite(in[c]);
+          *out = good ? in[c] : 0;
+          mended += !good;
+        }
+    }
+  return cube;
 }
 
 Result<std::unique_ptr<Capture>> Capture::create(const ProcAddress& getProcAddress, Scene scene, const Quality& quality) {
