@@ -14,13 +14,7 @@ namespace {
 
 /// Of the scene's diagonal: a point may be so near to a surface, and depths are floats whose precision does not depend on it (reversed, no far end).
 constexpr double kNearShare = 1e-5;
-constexpr double kNearest = 1e-5, kFarthest = 0.05;  // metres
-
-float nearOf(const Scene& scene) {
-  const Bounds b = scene.bounds();
-  const double diagonal = b.empty() ? 0 : double(glm::length(b.max - b.min));
-  return float(std::clamp(std::isfinite(diagonal) ? diagonal * kNearShare : 0, kNearest, kFarthest));
-}
+constexpr double kNearest = 0x1p-17, kFarthest = 0x1p-4;  // metres
 
 /// Columns right, up and back of a face's view: table 8.19 of the OpenGL 4.5 specification, s to the right and t upward.
 glm::dmat3 faceAxes(int face) {
@@ -32,7 +26,7 @@ glm::dmat3 faceAxes(int face) {
 
 class RendererCapture final : public Capture {
  public:
-  RendererCapture(ProcAddress address, Scene scene, const Quality& quality) : address_(std::move(address)), scene_(std::move(scene)), quality_(captureQuality(quality)), near_(nearOf(scene_)) {
+  RendererCapture(ProcAddress address, Scene scene, const Quality& quality) : address_(std::move(address)), scene_(std::move(scene)), quality_(captureQuality(quality)), near_(captureNear(scene_)) {
     // The disc is a directional light's: in a capture it would light once more. What lights is captured whether it is shown or not.
     scene_.environment.sun.reset();
     scene_.environment.background = true;
@@ -93,6 +87,12 @@ class RendererCapture final : public Capture {
 };
 
 }  // namespace
+
+float captureNear(const Scene& scene) {
+  const Bounds b = scene.bounds();
+  const double near = b.empty() ? 0 : double(glm::length(b.max - b.min)) * kNearShare;
+  return std::isfinite(near) ? float(std::clamp(std::exp2(std::floor(std::log2(std::max(near, kNearest)))), kNearest, kFarthest)) : float(kFarthest);
+}
 
 std::array<View, 6> faceViews(glm::dvec3 point, float near, int size, glm::ivec2 corner) {
   std::array<View, 6> views;

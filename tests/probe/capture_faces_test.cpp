@@ -92,3 +92,17 @@ TEST_CASE("capture: faces that cannot be drawn are an error") {
   CHECK(!o.capture->radiance({0, 0, 0}, 0));
   CHECK(!o.capture->radiance({0, 0, 0}, 5000));
 }
+
+TEST_CASE("capture: what is too near to be seen follows the scene's size, in steps") {
+  const auto near = [](float half) {
+    Scene scene;
+    place(scene, box(vec3(-half), vec3(half)), Material{});
+    return probe::captureNear(scene);
+  };
+  CHECK(near(5) <= 1e-5f * 10 * std::sqrt(3.0f));
+  CHECK(near(5) > 0.5e-5f * 10 * std::sqrt(3.0f));
+  CHECK(near(5) == near(5.5f));
+  CHECK(near(1e-6f) == 0x1p-17f);
+  CHECK(near(1e9f) == 0x1p-4f);
+  CHECK(probe::captureNear(Scene{}) == 0x1p-17f);
+}

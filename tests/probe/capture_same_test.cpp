@@ -54,10 +54,9 @@ TEST_CASE("capture: the same bytes as six views of a fresh renderer, whatever is
   {
     // Six views through the public interface.
     Stage stage;
-    const float near = float(glm::length(scene.bounds().max - scene.bounds().min) * 1e-5);
     RenderRequest request;
     request.output = Output::Linear;
-    const Picture picture = stage.draw(scene, probe::faceViews(eye, near, kSize), {3 * kSize, 2 * kSize}, probe::captureQuality(demanding()), request);
+    const Picture picture = stage.draw(scene, probe::faceViews(eye, probe::captureNear(scene), kSize), {3 * kSize, 2 * kSize}, probe::captureQuality(demanding()), request);
     int differ = 0;
     double brightest = 0, darkest = 1e9;
     eachTexel(before, [&](int face, int x, int y, const dvec3&, const dvec3& l) {
