@@ -39,9 +39,10 @@ struct BakeOptions {
 /// What a bounce changed.
 struct BounceReport {
   int bounce = 0;        ///< from 1: light that comes straight from lights, emission and sky
-  double change = 0;     ///< of the probes' light against the bounce before, over all of it: rms of irradiance over all capture points
-  double ratio = 0;      ///< q: this change over the one before; 0 in the first two bounces
-  double rest = 0;       ///< estimated: change · q / (1 - q); infinite while q is not known
+  double change = 0;     ///< of the probes' light against the bounce before, over all of it: rms of irradiance over all capture points, directions and channels
+  double light = 0;      ///< all of it: rms of irradiance over π, cd/m²
+  double ratio = 0;      ///< q: what this bounce added (change · light) over what the one before added; 0 in the first bounce
+  double rest = 0;       ///< estimated: change · q / (1 - q); infinite while q is not known or not below 1
   int captured = 0, reused = 0;  ///< capture points
 };
 
