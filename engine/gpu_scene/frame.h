@@ -110,7 +110,7 @@ struct FrameContext {
   scene::ShadowSet* shadows = nullptr;    ///< of the first of `lights`; the pass "shadow_maps" says in which layers its maps are
   const GpuEnvironment* environment = nullptr;
   std::span<const scene::SeenProbe> probes{};  ///< smaller boxes before larger ones
-  const GpuProbes* probeLight = nullptr;       ///< nullptr: nothing looks reflections up in them
+  const GpuProbes* probeLight = nullptr;       ///< nullptr: `probes` is empty
   glm::ivec2 size{0};      ///< of the target
   GLuint output = 0;       ///< the target's framebuffer
   float preExposure = 1;   ///< the light buffer holds radiance times this

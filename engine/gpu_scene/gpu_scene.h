@@ -67,7 +67,8 @@ class GpuScene {
   /// Only called when the plan lights by it or shows it.
   Result<const GpuEnvironment*> environment(const Scene& scene, EnvironmentWants wants, Report& report);
   /// Only called when the plan looks reflections up in captured places: some probe of the scene is usable.
-  Result<const GpuProbes*> probes(const Scene& scene, Report& report);
+  /// `cubes`: something looks reflections up. What a refresh writes there holds until the set's revision moves.
+  Result<GpuProbes*> probes(const Scene& scene, bool cubes, Report& report);
 
   [[nodiscard]] Deformation& deformation() { return deformation_; }
   /// Whether so many bytes may be uploaded in this frame; they count as uploaded then.

@@ -7,8 +7,9 @@ namespace burnish {
 
 class History {
  public:
-  /// Before anything is looked at: compares with the frame before, and says where each view's samples lie (jitter()).
-  void begin(const Scene& scene, const scene::Derived& derived, std::span<const View> views, const Target& target, const Quality& quality, const RenderRequest& request);
+  /// Before anything is looked at: compares with the frame before, and says where each view's samples lie (jitter()). `refreshes`: of probes, so far.
+  void begin(const Scene& scene, const scene::Derived& derived, std::span<const View> views, const Target& target, const Quality& quality, const RenderRequest& request,
+             std::uint64_t refreshes);
   [[nodiscard]] glm::dvec2 jitter(std::size_t view) const;
   [[nodiscard]] const scene::MotionTracker& motion() const { return motion_; }
   /// What the view's passes take. `pictures`: TargetPool::serial of the target that should hold the frame before.
@@ -25,7 +26,7 @@ class History {
  private:
   /// What a picture is made of, but for the views. Whatever a scene is given beside its tables belongs in here: an animated picture that is taken for a still one smears.
   struct Stamp {
-    std::uint64_t scene = 0, nodes = 0, meshes = 0, textures = 0, materials = 0, instances = 0, lights = 0, skins = 0, probes = 0, environment = 0;
+    std::uint64_t scene = 0, nodes = 0, meshes = 0, textures = 0, materials = 0, instances = 0, lights = 0, skins = 0, probes = 0, refreshes = 0, environment = 0;
     glm::vec3 color{0};
     float scale = 0;
     std::array<float, 8> fog{}, sun{};

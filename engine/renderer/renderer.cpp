@@ -1,30 +1,18 @@
 // Executes frame plans: for each view the plan's passes in order, each a function of its module.
-#include <burnish/renderer.h>
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
-#include "gbuffer/geometry_pass.h"
-#include "gl/host_state.h"
 #include "interface/limits.h"
-#include "plan/plan.h"
 #include "plan/temporal.h"
-#include "renderer/history.h"
-#include "renderer/passes.h"
+#include "renderer/impl.h"
+#include "renderer/refresh.h"
 
 namespace burnish {
 namespace {
 
 using gpu_scene::FrameContext;
-
-struct SceneState {
-  explicit SceneState(gl::Device& device) : gpu(device) {}
-  gpu_scene::GpuScene gpu;
-  scene::Derived derived;
-};
 
 gl::Timing timingOf(TimingMode mode) { return mode == TimingMode::Async ? gl::Timing::Async : mode == TimingMode::Profile ? gl::Timing::Profile : gl::Timing::Off; }
 
@@ -68,103 +56,71 @@ std::vector<std::string> heldSettings(const Quality& q) {
 /// Some pass draws instances: their transforms and materials are wanted.
 bool drawsInstances(const FramePlan& plan) { return plan::reads(plan, "meshes"); }
 
-/// The GL state of one call: the host's is saved (HostState::Save) and the engine starts from defaults; at the end, on every path, the host finds what it was promised.
-class CallState {
- public:
-  CallState(const gl::Device& device, HostState promise) : device_(device) {
-    if (promise == HostState::Save)
-      guard_.emplace(device);
-    else
-      gl::setDefaults(device);
-    device.gl.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-  }
-  ~CallState() {
-    if (!guard_) gl::setDefaults(device_);
-  }
-  CallState(const CallState&) = delete;
-  CallState& operator=(const CallState&) = delete;
-
- private:
-  const gl::Device& device_;
-  std::optional<gl::HostStateGuard> guard_;
-};
-
 }  // namespace
 
-struct Renderer::Impl {
-  RendererOptions options;
-  std::unique_ptr<gl::Device> device;
-  std::unique_ptr<gl::ProgramCache> programs;
-  std::unique_ptr<gpu_scene::TargetPool> targets;
-  std::unique_ptr<gpu_scene::ProgramSet> programSet;
-  std::unique_ptr<Modules> modules;
-  std::unique_ptr<gl::FrameTimers> timers;
-  gpu_scene::FrameBuffers buffers;
-  std::map<std::uint64_t, std::unique_ptr<SceneState>> scenes;
-  FramePlan plan;
-  Report report;
-  std::size_t reported = 0;
-  std::optional<Quality> reportedQuality;
-  std::vector<bool> loggedEffects;
-  std::vector<plan::Seen> seen;  // of each view
-  float preExposure = 1;         // of the view drawn last
-  std::map<int, History> histories;  // by sequence, while antialiasing over time is on
+Renderer::Impl::Impl() = default;
+Renderer::Impl::~Impl() = default;
 
-  SceneState& stateOf(const Scene& scene) {
-    std::unique_ptr<SceneState>& s = scenes[scene.identity.value()];
-    if (!s) s = std::make_unique<SceneState>(*device);
-    return *s;
+Result<std::unique_ptr<Series>> Series::create(gl::Device& device, gl::ProgramCache& programs) {
+  std::unique_ptr<Series> series(new Series(device, programs));
+  auto buffers = gpu_scene::FrameBuffers::create(device);
+  if (!buffers) return fail(buffers.error());
+  series->buffers = std::move(*buffers);
+  return series;
+}
+
+SceneState& Renderer::Impl::stateOf(const Scene& scene) {
+  std::unique_ptr<SceneState>& s = scenes[scene.identity.value()];
+  if (!s) s = std::make_unique<SceneState>(*device);
+  return *s;
+}
+
+void Renderer::Impl::logNewWarnings() {
+  for (; reported < report.warnings().size(); ++reported)
+    if (options.log) options.log(LogLevel::Warning, report.warnings()[reported].message());
+}
+
+void Renderer::Impl::logEffects() {
+  if (!options.log) return;
+  loggedEffects.resize(pictures->plan.effects.size());
+  for (std::size_t i = 0; i < pictures->plan.effects.size(); ++i) {
+    const EffectPlan& e = pictures->plan.effects[i];
+    if (e.on != loggedEffects[i]) options.log(LogLevel::Info, fmt::format("effect '{}' {}: {}", e.name, e.on ? "on" : "off", e.reason));
+    loggedEffects[i] = e.on;
   }
-  void logNewWarnings() {
-    for (; reported < report.warnings().size(); ++reported)
-      if (options.log) options.log(LogLevel::Warning, report.warnings()[reported].message());
-  }
-  /// Every effect that went on or off since the last frame, with its reason.
-  void logEffects() {
-    if (!options.log) return;
-    loggedEffects.resize(plan.effects.size());
-    for (std::size_t i = 0; i < plan.effects.size(); ++i) {
-      const EffectPlan& e = plan.effects[i];
-      if (e.on != loggedEffects[i]) options.log(LogLevel::Info, fmt::format("effect '{}' {}: {}", e.name, e.on ? "on" : "off", e.reason));
-      loggedEffects[i] = e.on;
-    }
-  }
-  /// Says once what the quality asks for and does not get as asked.
-  void reportQuality(const Quality& quality) {
-    if (quality == reportedQuality) return;
-    reportedQuality = quality;
-    if (const std::string rung = forwardOnlyRung(quality); !rung.empty() && plan.on("forward_reference"))
-      report.warn("quality", fmt::format("{} needs what the G-buffer does not hold: drawn by the forward reference path (slow)", rung));
-    for (const std::string& text : idleRungs(quality)) report.warn("quality", text);
-    for (const std::string& text : heldSettings(quality)) report.warn("quality", text);
-  }
-  /// Light lists hold indices of 16 bits, and a buffer texture all lights and the records of their shadows. The rest is off, on every path alike.
-  void boundLights(scene::LightSet& lights, const scene::ShadowSet& shadows) {
-    const std::size_t room = std::size_t(device->caps.maxTextureBufferTexels) - SHADOW_TEXELS * shadows.locals.size(), most = std::min<std::size_t>(65534, room / LIGHT_TEXELS - 1);
-    if (lights.local.size() <= most) return;
-    report.warn("lights", fmt::format("{} point and spot lights reach into view: {} is the limit, those past it are off (give them shorter ranges)", lights.local.size(), most));
-    lights.local.resize(most);
-  }
-  PlanOptions planOptions(const Target& target, const RenderRequest& request) const {
-    PlanOptions o;
-    o.size = target.size;
-    o.output = request.output;
-    o.debugView = request.debugView;
-    o.hostDepthIn = target.depthIn.has_value();
-    o.hostDepthOut = target.depthOut.has_value();
-    o.hostDraw = bool(request.hostDraw);
-    o.countNonfinite = request.countNonfinite;
-    o.sequence = request.sequence;
-    o.tileBounds = options.tileBounds;
-    o.removed = options.removedEffects;
-    o.forced = options.forcedEffects;
-    return o;
-  }
-  Result<void> checkRequest(const Target& target, std::span<const View> views) const;
-  /// What is remembered of the sequence, ready for this frame; nullptr: nothing is, antialiasing over time is off.
-  History* historyOf(const Scene& scene, const scene::Derived& derived, std::span<const View> views, const Target& target, const Quality& quality, const RenderRequest& request, const PlanOptions& planned);
-  Result<void> renderView(SceneState& state, const Scene& scene, plan::Seen& view, const gpu_scene::PastFrame& past, const Target& target, const Quality& quality, const RenderRequest& request, FrameStats& stats);
-};
+}
+
+void Renderer::Impl::reportQuality(const Quality& quality) {
+  if (quality == reportedQuality) return;
+  reportedQuality = quality;
+  if (const std::string rung = forwardOnlyRung(quality); !rung.empty() && pictures->plan.on("forward_reference"))
+    report.warn("quality", fmt::format("{} needs what the G-buffer does not hold: drawn by the forward reference path (slow)", rung));
+  for (const std::string& text : idleRungs(quality)) report.warn("quality", text);
+  for (const std::string& text : heldSettings(quality)) report.warn("quality", text);
+}
+
+void Renderer::Impl::boundLights(scene::LightSet& lights, const scene::ShadowSet& shadows) {
+  const std::size_t room = std::size_t(device->caps.maxTextureBufferTexels) - SHADOW_TEXELS * shadows.locals.size(), most = std::min<std::size_t>(65534, room / LIGHT_TEXELS - 1);
+  if (lights.local.size() <= most) return;
+  report.warn("lights", fmt::format("{} point and spot lights reach into view: {} is the limit, those past it are off (give them shorter ranges)", lights.local.size(), most));
+  lights.local.resize(most);
+}
+
+PlanOptions Renderer::Impl::planOptions(const Target& target, const RenderRequest& request) const {
+  PlanOptions o;
+  o.size = target.size;
+  o.output = request.output;
+  o.debugView = request.debugView;
+  o.hostDepthIn = target.depthIn.has_value();
+  o.hostDepthOut = target.depthOut.has_value();
+  o.hostDraw = bool(request.hostDraw);
+  o.countNonfinite = request.countNonfinite;
+  o.sequence = request.sequence;
+  o.tileBounds = options.tileBounds;
+  o.removed = options.removedEffects;
+  o.forced = options.forcedEffects;
+  return o;
+}
 
 Result<void> Renderer::Impl::checkRequest(const Target& target, std::span<const View> views) const {
   if (target.size.x <= 0 || target.size.y <= 0)
@@ -189,11 +145,12 @@ History* Renderer::Impl::historyOf(const Scene& scene, const scene::Derived& der
     return nullptr;
   }
   History& history = histories[request.sequence];
-  history.begin(scene, derived, views, target, quality, request);
+  history.begin(scene, derived, views, target, quality, request, refreshes);
   return &history;
 }
 
-Result<void> Renderer::Impl::renderView(SceneState& state, const Scene& scene, plan::Seen& view, const gpu_scene::PastFrame& past, const Target& target, const Quality& quality, const RenderRequest& request, FrameStats& stats) {
+Result<void> Renderer::Impl::renderView(Series& series, SceneState& state, const Scene& scene, plan::Seen& view, const gpu_scene::PastFrame& past, const Target& target, const Quality& quality, const RenderRequest& request, FrameStats& stats) {
+  const FramePlan& plan = series.plan;
   const gpu_scene::GpuEnvironment* environment = nullptr;
   if (plan.on("environment_lighting") || plan.on("background")) {
     auto found = state.gpu.environment(scene, {.cube = plan::reads(plan, "environment cube"), .picture = plan::reads(plan, "environment")}, report);
@@ -201,25 +158,25 @@ Result<void> Renderer::Impl::renderView(SceneState& state, const Scene& scene, p
     environment = *found;
   }
   const gpu_scene::GpuProbes* probeLight = nullptr;
-  if (plan::reads(plan, "probe cubes")) {
-    auto found = state.gpu.probes(scene, report);
+  if (plan::reads(plan, "probe records")) {
+    auto found = state.gpu.probes(scene, plan::reads(plan, "probe cubes"), report);
     if (!found) return fail(found.error());
     probeLight = *found;
   }
-  FrameContext c{.device = *device, .plan = plan, .programs = *programSet, .targets = *targets, .gpuScene = state.gpu, .buffers = buffers, .scene = scene, .quality = quality, .view = view.frame,
+  FrameContext c{.device = *device, .plan = plan, .programs = series.programs, .targets = series.targets, .gpuScene = state.gpu, .buffers = series.buffers, .scene = scene, .quality = quality, .view = view.frame,
                  .visible = view.instances, .batches = view.batches, .lights = view.lights, .transparent = view.transparent, .shadows = &view.shadows, .environment = environment, .probes = view.probes, .probeLight = probeLight, .size = target.size, .output = target.framebuffer, .past = past, .moved = view.moved, .report = report, .stats = stats};
   const float display = quality.exposureEv ? exposureOf(*quality.exposureEv) : 1;
   if (request.output == Output::Display) c.preExposure = quality.exposureEv ? display : guessedExposure(view.lights, environment, scene.environment.scale, brightestPlace(scene, view.probes));
-  preExposure = c.preExposure;
+  series.preExposure = c.preExposure;
   if (auto done = gpu_scene::uploadFrameData(c, display); !done) return done;
   if (drawsInstances(plan))
     if (auto done = gpu_scene::uploadDraws(c); !done) return done;
   if (plan::reads(plan, "probe records"))
     if (auto done = gpu_scene::uploadProbeRecords(c); !done) return done;
   stats.lightsInView += int(view.lights.directional.size());
-  PassCall call{c, *modules, target, request};
+  PassCall call{c, series.modules, target, request};
   for (const PassPlan& pass : plan.passes)
-    if (auto done = runPass(pass, call, *timers); !done) return done;
+    if (auto done = runPass(pass, call, series.timers); !done) return done;
   return {};
 }
 
@@ -235,18 +192,14 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const ProcAddress& getProcAdd
   m.device = std::move(*device);
   const CallState callState(*m.device, options.hostState);
   m.programs = std::make_unique<gl::ProgramCache>(*m.device, gl::ShaderLibrary(options.shaderOverride), options.programCache);
-  m.targets = std::make_unique<gpu_scene::TargetPool>(*m.device);
-  m.programSet = std::make_unique<gpu_scene::ProgramSet>(*m.device, *m.programs);
-  m.timers = std::make_unique<gl::FrameTimers>(*m.device);
-  auto buffers = gpu_scene::FrameBuffers::create(*m.device);
-  if (!buffers) return fail(buffers.error());
-  m.buffers = std::move(*buffers);
-  m.modules = std::make_unique<Modules>(*m.device);
+  auto pictures = Series::create(*m.device, *m.programs);
+  if (!pictures) return fail(pictures.error());
+  m.pictures = std::move(*pictures);
   return renderer;
 }
 
 const Capabilities& Renderer::capabilities() const { return impl_->device->caps; }
-const FramePlan& Renderer::lastPlan() const { return impl_->plan; }
+const FramePlan& Renderer::lastPlan() const { return impl_->pictures->plan; }
 const Report& Renderer::report() const { return impl_->report; }
 void Renderer::release(const Scene& scene) { impl_->scenes.erase(scene.identity.value()); }
 
@@ -260,110 +213,76 @@ Result<FrameStats> Renderer::render(const Scene& scene, std::span<const View> vi
   Impl& m = *impl_;
   if (auto good = m.checkRequest(target, views); !good) return fail(good.error());
   const CallState callState(*m.device, m.options.hostState);
-  SceneState& state = m.stateOf(scene);
-  state.derived.update(scene, &m.report);
-  const PlanOptions options = m.planOptions(target, request);
-  History* history = m.historyOf(scene, state.derived, views, target, quality, request, options);
-  m.seen.resize(views.size());
+  return m.draw(*m.pictures, scene, views, target, quality, request, m.planOptions(target, request));
+}
+
+Result<void> Renderer::Impl::look(Series& series, SceneState& state, const Scene& scene, std::span<const View> views, const Target& target, const Quality& quality, const PlanOptions& planned, const History* history) {
+  series.seen.resize(views.size());
   for (std::size_t i = 0; i < views.size(); ++i) {
-    plan::look(scene, state.derived, views[i], target.size, quality, m.report, m.seen[i], history ? history->jitter(i) : glm::dvec2(0));
-    m.boundLights(m.seen[i].lights, m.seen[i].shadows);
-    m.seen[i].moved = history ? history->motion().among(m.seen[i].instances) : std::vector<scene::Moved>{};
+    plan::Seen& seen = series.seen[i];
+    plan::look(scene, state.derived, views[i], target.size, quality, report, seen, history ? history->jitter(i) : glm::dvec2(0));
+    boundLights(seen.lights, seen.shadows);
+    seen.moved = history ? history->motion().among(seen.instances) : std::vector<scene::Moved>{};
   }
-  m.plan = plan::planOf(scene, m.seen, quality, m.device->caps, options, nullptr);
-  for (plan::Seen& seen : m.seen) {
-    if (!m.plan.on("directional_lights")) seen.lights.directional.clear();
-    if (!m.plan.on("local_lights")) seen.lights.local.clear();
-    if (!m.plan.on("reflection_probes")) seen.probes.clear();
-    if (!m.plan.on("shadows")) seen.shadows = {};
-    if (!m.plan.on("directional_lights")) scene::dropShadows(seen.shadows, true);
-    if (!m.plan.on("local_lights")) scene::dropShadows(seen.shadows, false);
-    if (m.plan.on("deformation")) continue;
+  series.plan = plan::planOf(scene, series.seen, quality, device->caps, planned, nullptr);
+  const FramePlan& plan = series.plan;
+  for (plan::Seen& seen : series.seen) {
+    if (!plan.on("directional_lights")) seen.lights.directional.clear();
+    if (!plan.on("local_lights")) seen.lights.local.clear();
+    if (!plan.on("reflection_probes")) seen.probes.clear();
+    if (!plan.on("shadows")) seen.shadows = {};
+    if (!plan.on("directional_lights")) scene::dropShadows(seen.shadows, true);
+    if (!plan.on("local_lights")) scene::dropShadows(seen.shadows, false);
+    if (plan.on("deformation")) continue;
     std::erase_if(seen.moved, [&seen](const scene::Moved& moved) { return seen.instances[moved.visible].pose != nullptr; });
     for (scene::VisibleInstance& v : seen.instances)
       if (v.pose) scene::makeRigid(scene, state.derived, seen.frame, v);
     for (scene::ShadowCaster& caster : seen.shadows.casters)
       if (caster.placed.pose) scene::makeRigid(scene, state.derived, caster.placed);
   }
-  if (m.plan.on("forward_reference") && target.depthIn)
+  if (plan.on("forward_reference") && target.depthIn)
     return fail("target", "it brings depth, which the forward reference path cannot take in", "leave depthIn empty, or use path=deferred and rungs that are not forward-only");
-  m.reportQuality(quality);
-  m.logEffects();
+  return {};
+}
+
+Result<FrameStats> Renderer::Impl::draw(Series& series, const Scene& scene, std::span<const View> views, const Target& target, const Quality& quality, const RenderRequest& request, const PlanOptions& planned) {
+  const bool picture = &series == pictures.get();
+  SceneState& state = stateOf(scene);
+  state.derived.update(scene, &report);
+  History* history = picture ? historyOf(scene, state.derived, views, target, quality, request, planned) : nullptr;
+  if (auto seen = look(series, state, scene, views, target, quality, planned, history); !seen) return fail(seen.error());
+  if (picture) {
+    reportQuality(quality);
+    logEffects();
+  }
   FrameStats stats;
-  Result<void> done = m.programSet->prepare(m.plan);
-  if (done) done = m.targets->prepare(m.plan);
-  state.gpu.beginFrame(scene, m.options.uploadBytesPerFrame);
-  if (done && drawsInstances(m.plan)) done = state.gpu.updateMaterials(scene);
-  state.gpu.deformation().beginFrame(scene, history != nullptr);
-  m.timers->beginFrame(timingOf(request.timing));
+  Result<void> done = series.programs.prepare(series.plan);
+  if (done) done = series.targets.prepare(series.plan);
+  state.gpu.beginFrame(scene, options.uploadBytesPerFrame);
+  if (done && drawsInstances(series.plan)) done = state.gpu.updateMaterials(scene);
+  // A capture shows the moment of the picture before it: what that one remembers of the frame before stays.
+  if (picture) state.gpu.deformation().beginFrame(scene, history != nullptr);
+  series.timers.beginFrame(timingOf(request.timing));
   for (std::size_t i = 0; i < views.size() && done; ++i) {
     gpu_scene::PastFrame past;
-    if (history) past = history->past(i, m.targets->serial(plan::historyName(request.sequence, history->source())));
+    if (history) past = history->past(i, series.targets.serial(plan::historyName(request.sequence, history->source())));
     past.sequence = request.sequence;
-    done = m.renderView(state, scene, m.seen[i], past, target, quality, request, stats);
-    if (history) history->drawn(i, m.seen[i].frame, m.preExposure);
+    done = renderView(series, state, scene, series.seen[i], past, target, quality, request, stats);
+    if (history) history->drawn(i, series.seen[i].frame, series.preExposure);
   }
-  m.timers->endFrame();
-  if (history && done) history->end(m.targets->serial(plan::historyName(request.sequence, 1 - history->source())), state.gpu.pending() == 0);
-  if (!done) m.histories.erase(request.sequence);
-  if (m.options.debugOutput) stats.glErrors = m.device->takeErrors();
-  m.logNewWarnings();
+  series.timers.endFrame();
+  if (history && done) history->end(series.targets.serial(plan::historyName(request.sequence, 1 - history->source())), state.gpu.pending() == 0);
+  if (picture && !done) histories.erase(request.sequence);
+  if (options.debugOutput) stats.glErrors = device->takeErrors();
+  logNewWarnings();
   if (!done) return fail(done.error());
-  for (const gl::PassSample& s : m.timers->latest()) stats.passes.push_back({s.name, s.gpuMs, s.cpuMs});
+  for (const gl::PassSample& s : series.timers.latest()) stats.passes.push_back({s.name, s.gpuMs, s.cpuMs});
   stats.lights = int(scene.lights.size());
   stats.uploadedBytes = state.gpu.uploadedBytes();
   stats.pendingUploads = state.gpu.pending();
-  stats.textureBytes = std::uint64_t(m.device->textureBytes());
+  stats.textureBytes = std::uint64_t(device->textureBytes());
   if (quality.exposureEv) stats.exposureEv = *quality.exposureEv;
   return stats;
-}
-
-Result<Id<Instance>> Renderer::pick(const Scene& scene, const View& view, glm::ivec2 targetSize, glm::ivec2 pixel) {
-  Impl& m = *impl_;
-  Target target;
-  target.size = targetSize;
-  if (auto good = m.checkRequest(target, {&view, 1}); !good) return fail(good.error());
-  if (scene.instances.capacity() >= (1u << 24) - 1) return fail("pick", fmt::format("the scene has {} instances and ids are exact up to {}", scene.instances.capacity(), (1u << 24) - 2), "pick in a smaller scene");
-  const scene::ViewFrame whole = scene::frameOf(view, targetSize);
-  const glm::ivec2 local = pixel - glm::ivec2(whole.viewport.x, whole.viewport.y);
-  if (local.x < 0 || local.y < 0 || local.x >= whole.viewport.z || local.y >= whole.viewport.w) return Id<Instance>{};
-  const CallState callState(*m.device, m.options.hostState);
-  // A frame of one pixel whose only pass draws ids.
-  FramePlan plan;
-  plan.targets = {{"pick", "R32UI", 1, 1, 4}, {"pick_depth", "DEPTH_COMPONENT32F", 1, 1, 4}};
-  for (int key = 0; key < 4; ++key) plan.programs.push_back(plan::geometryProgram(plan::GeometryPass::Pick, {(key & 1) != 0, (key & 2) != 0, false}, false));
-  SceneState& state = m.stateOf(scene);
-  state.derived.update(scene, &m.report);
-  plan::Seen seen;
-  seen.frame = scene::narrowed(whole, local);
-  scene::findVisible(scene, state.derived, seen.frame, seen.instances);
-  seen.batches = scene::singles(seen.instances);  // the programs that draw ids draw one at a time
-  for (const plan::DeformVariant& v : plan::factsOf(scene, {&seen, 1}, {}, {}).deformVariants) plan.programs.push_back(plan::deformProgram(v));
-  gpu_scene::ProgramSet programs(*m.device, *m.programs);
-  gpu_scene::TargetPool targets(*m.device);
-  if (auto done = programs.prepare(plan); !done) return fail(done.error());
-  if (auto done = targets.prepare(plan); !done) return fail(done.error());
-  state.gpu.beginFrame(scene, 0);
-  if (auto done = state.gpu.updateMaterials(scene); !done) return fail(done.error());
-  const Quality quality;
-  FrameStats stats;
-  FrameContext c{.device = *m.device, .plan = plan, .programs = programs, .targets = targets, .gpuScene = state.gpu, .buffers = m.buffers, .scene = scene, .quality = quality, .view = seen.frame,
-                 .visible = seen.instances, .batches = seen.batches, .lights = seen.lights, .size = {1, 1}, .report = m.report, .stats = stats};
-  if (auto done = gpu_scene::uploadFrameData(c, 1); !done) return fail(done.error());
-  if (auto done = gpu_scene::uploadDraws(c); !done) return fail(done.error());
-  if (auto done = gpu_scene::deform(c, seen.instances); !done) return fail(done.error());
-  auto framebuffer = targets.framebuffer({"pick"}, "pick_depth");
-  if (!framebuffer) return fail(framebuffer.error());
-  m.device->gl.BindFramebuffer(GL_FRAMEBUFFER, *framebuffer);
-  c.setViewport();
-  const GLuint nothing[4] = {};
-  const float far = 0;
-  m.device->gl.ClearNamedFramebufferuiv(*framebuffer, GL_COLOR, 0, nothing);
-  m.device->gl.ClearNamedFramebufferfv(*framebuffer, GL_DEPTH, 0, &far);
-  if (auto done = gbuffer::drawPick(c); !done) return fail(done.error());
-  GLuint found = 0;
-  m.device->gl.GetTextureSubImage(targets.texture("pick")->id(), 0, 0, 0, 0, 1, 1, 1, GL_RED_INTEGER, GL_UNSIGNED_INT, sizeof found, &found);
-  return found == 0 ? Id<Instance>{} : scene.instances.at(found - 1);
 }
 
 }  // namespace burnish

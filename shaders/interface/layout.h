@@ -78,7 +78,7 @@ struct FrameData {
   vec4 fog;              // x extinction (1/m) at the reference height, y its falloff (1/m), z height of the eye above that (m), w metres that are clear
   vec4 fogLight[5];      // pre-exposed radiance that fog shows: constant, along y, z, x; rgb albedo, w mean cosine of its scattering
   vec4 sun[2];           // xyz unit direction to the sun's disc, w its radius (radians); pre-exposed rgb radiance, w sine of the elevation under which it is hidden
-  vec4 probes;           // x reflection probes in view; y last level of their cubes; z what their texels are multiplied by: pre-exposed radiance
+  vec4 probes;           // x reflection probes in view; y last level of their cubes
   vec4 directional[2 * MAX_DIRECTIONAL];  // xyz unit direction to the light; rgb pre-exposed lux
 };
 

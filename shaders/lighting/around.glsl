@@ -84,17 +84,18 @@ vec3 ambientAt(Place at, vec3 n) {
 #if PROBES
 vec3 probeRadiance(int record, vec3 p, vec3 d, float roughness) {
   float layer = texelFetch(probeRecords, record + 4).w;
+  vec4 capture = texelFetch(probeRecords, record + 5);  // w: what texels are multiplied by
   vec3 direction = d;
 #if RUNG_REFLECTION != REFLECTION_INFINITE
   vec3 x = texelFetch(probeRecords, record).xyz, y = texelFetch(probeRecords, record + 1).xyz, z = texelFetch(probeRecords, record + 2).xyz;
-  vec3 own = vec3(dot(x, d), dot(y, d), dot(z, d)), q = inBox(record, p), extent = texelFetch(probeRecords, record + 3).xyz, capture = texelFetch(probeRecords, record + 5).xyz;
-  vec3 hit = probeHit(q, own, extent), to = probeDirection(hit, own, capture);
+  vec3 own = vec3(dot(x, d), dot(y, d), dot(z, d)), q = inBox(record, p), extent = texelFetch(probeRecords, record + 3).xyz;
+  vec3 hit = probeHit(q, own, extent), to = probeDirection(hit, own, capture.xyz);
   direction = x * to.x + y * to.y + z * to.z;
 #if RUNG_REFLECTION == REFLECTION_BOX_ROUGH
-  roughness = probeRoughness(roughness, q, hit, capture);
+  roughness = probeRoughness(roughness, q, hit, capture.xyz);
 #endif
 #endif
-  return textureLod(probeCubes, vec4(direction, layer), environmentLevel(roughness, frame.probes.y)).rgb * frame.probes.z;
+  return textureLod(probeCubes, vec4(direction, layer), environmentLevel(roughness, frame.probes.y)).rgb * capture.w;
 }
 #endif
 

@@ -23,6 +23,12 @@ struct RendererOptions {
   LogSink log;                               ///< warnings; Info: each effect that goes on or off, with its reason
 };
 
+/// How far a probe's refresh is.
+struct ProbeRefresh {
+  int done = 0, total = 0;  ///< pieces: six faces, the filter's slices, the change
+  bool ready = false;       ///< the new light is in force from the next render() on
+};
+
 class BURNISH_API Renderer {
  public:
   /// The context must be current on this thread, here and in every later call, and outlive the renderer.
@@ -40,6 +46,11 @@ class BURNISH_API Renderer {
   [[nodiscard]] const FramePlan& lastPlan() const;
   /// The instance that covers a pixel (x right, y up from the target's lower left corner); empty id where there is none.
   Result<Id<Instance>> pick(const Scene& scene, const View& view, glm::ivec2 targetSize, glm::ivec2 pixel);
+  /// Captures a reflection probe of the scene again and filters it on the GPU, a piece of the work a call (a face, a slice of the filter), so that frames stay short: call it after render() of a frame, until
+  /// `ready`. Faces show the scene as it is in their call, lit by the probes as they are: each refresh of all probes is a bounce more. Until then the old light holds; it waits for nothing. Another
+  /// probe than in the call before begins anew, and so does a set whose revision moved, which also takes back what refreshes wrote. The probe needs light of a size (a power of two, 16 or more) and
+  /// number of levels: black levels do. Radiance over 65504 cd/m² is held there. The lattice (AmbientGrid) is not refreshed.
+  Result<ProbeRefresh> refreshProbe(const Scene& scene, std::size_t probe, const Quality& quality);
   /// Frees what the renderer holds for a scene (its uploads live until this, or until the renderer goes).
   void release(const Scene& scene);
   [[nodiscard]] const Report& report() const;  ///< warnings of uploads and light ranges so far
