@@ -27,8 +27,8 @@ std::vector<glm::dvec3> posed(const Mesh& mesh, const scene::Pose* pose) {
 
 Look lookOf(const Material* m) { return !m ? kOpaque : scene::isTransparent(*m) ? kTransparent : m->alphaTest ? kCutout : kOpaque; }
 
-reference::TriangleMesh placed(const scene::Placed& p, Look look) {
-  reference::TriangleMesh out{posed(*p.mesh, p.pose), p.mesh->indices, look};
+reference::TriangleMesh placed(const scene::Placed& p, const Geometry::Surface& surface) {
+  reference::TriangleMesh out{posed(*p.mesh, p.pose), p.mesh->indices, surface.look, surface.twoSided};
   for (glm::dvec3& v : out.positions) v = glm::dvec3(p.placement * glm::dvec4(v, 1));
   const bool flipped = (glm::determinant(glm::dmat3(p.placement)) < 0) != (p.pose && p.pose->flipped);
   if (flipped)
@@ -50,7 +50,7 @@ Result<Geometry> Geometry::create(const Scene& scene, Report* report) {
   scene::eachPlaced(scene, derived, glm::dvec3(0), [&](const scene::Placed& p) {
     const Material* material = scene.materials.get(p.instance->material);
     surfaces.push_back({p.id, material && material->twoSided, lookOf(material)});
-    meshes.push_back(placed(p, surfaces.back().look));
+    meshes.push_back(placed(p, surfaces.back()));
   });
   auto rays = reference::RayScene::create(meshes);
   if (!rays) return fail(rays.error());

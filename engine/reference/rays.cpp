@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "prefilter/parallel.h"
 
@@ -27,6 +28,12 @@ constexpr const char* kDevice = "isa=sse4.2,threads=1";
 struct Soup {
   std::vector<glm::vec4> corners;
   std::vector<std::uint32_t> indices;
+  std::vector<std::uint32_t> original;  ///< triangles of the mesh that was given, where some were left out; empty: all of them
+  bool twoSided = false;
+
+  [[nodiscard]] glm::dvec3 corner(std::uint32_t triangle, std::size_t c) const { return glm::dvec3(corners[indices[triangle * std::size_t(3) + c]]); }
+  /// Right-handed, of twice the triangle's area.
+  [[nodiscard]] glm::dvec3 normal(std::uint32_t triangle) const { return glm::cross(corner(triangle, 1) - corner(triangle, 0), corner(triangle, 2) - corner(triangle, 0)); }
 };
 
 RTCRay embreeRay(const Ray& ray, glm::dvec3 middle) {
@@ -44,6 +51,21 @@ RTCRay embreeRay(const Ray& ray, glm::dvec3 middle) {
   return r;
 }
 
+// The plane's distance in double: floats are good for finding the triangle, less for how far along the ray it is.
+Hit hitOf(const Soup& soup, std::uint32_t mesh, std::uint32_t triangle, glm::vec2 barycentric, double distance, glm::dvec3 origin, glm::dvec3 direction) {
+  const glm::dvec3 n = soup.normal(triangle);
+  const double length = glm::length(n), slope = glm::dot(n, direction);
+  const double exact = glm::dot(n, soup.corner(triangle, 0) - origin) / slope, slack = 1e-4 * std::abs(distance) + 1e-30;
+  Hit hit;
+  hit.distance = std::abs(exact - distance) <= slack ? std::max(exact, 0.0) : distance;
+  hit.mesh = mesh;
+  hit.triangle = soup.original.empty() ? triangle : soup.original[triangle];
+  hit.barycentric = barycentric;
+  hit.normal = length > 0 ? n / length : glm::dvec3(0);
+  hit.back = slope > 0;
+  return hit;
+}
+
 bool good(const Ray& ray) { return finite(ray.origin) && finite(ray.direction) && ray.direction != glm::dvec3(0) && ray.from <= ray.to; }
 
 }  // namespace
@@ -52,7 +74,6 @@ struct RayScene::Parts {
   std::unique_ptr<std::remove_pointer_t<RTCDevice>, DeviceDelete> device;
   std::unique_ptr<std::remove_pointer_t<RTCScene>, SceneDelete> scene;
   std::vector<Soup> meshes;
-  std::vector<std::vector<std::uint32_t>> original;  ///< triangle of the mesh that was given, where some were left out; empty: the same
   glm::dvec3 middle{0}, low{std::numeric_limits<double>::infinity()}, high{-std::numeric_limits<double>::infinity()};
   std::size_t triangles = 0;
 
@@ -90,7 +111,7 @@ void RayScene::Parts::bound(std::span<const TriangleMesh> given) {
 
 void RayScene::Parts::take(const TriangleMesh& given) {
   Soup soup;
-  std::vector<std::uint32_t> kept;
+  soup.twoSided = given.twoSided;
   soup.corners.reserve(given.positions.size());
   for (const glm::dvec3& p : given.positions) soup.corners.emplace_back(finite(p) ? glm::vec3(p - middle) : glm::vec3(0), 0.0f);
   const std::size_t count = given.indices.size() / 3;
@@ -100,12 +121,11 @@ void RayScene::Parts::take(const TriangleMesh& given) {
       whole = false;
       continue;
     }
-    kept.push_back(std::uint32_t(t));
+    soup.original.push_back(std::uint32_t(t));
     soup.indices.insert(soup.indices.end(), given.indices.begin() + std::ptrdiff_t(t * 3), given.indices.begin() + std::ptrdiff_t(t * 3 + 3));
   }
-  if (whole) kept.clear();
+  if (whole) soup.original.clear();
   meshes.push_back(std::move(soup));
-  original.push_back(std::move(kept));
 }
 
 Result<void> RayScene::Parts::commit(std::span<const TriangleMesh> given) {
@@ -118,7 +138,7 @@ Result<void> RayScene::Parts::commit(std::span<const TriangleMesh> given) {
   if (!device) return fail("ray tracing", fmt::format("Embree does not start (error {})", int(rtcGetDeviceError(nullptr))), "a processor with SSE 4.2 is needed");
   if (!rtcGetDeviceProperty(device.get(), RTC_DEVICE_PROPERTY_RAY_MASK_SUPPORTED)) return fail("ray tracing", "this Embree was built without ray masks", "use the distribution's package");
   scene.reset(rtcNewScene(device.get()));
-  rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
+  rtcSetSceneFlags(scene.get(), RTCSceneFlags(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
   rtcSetSceneBuildQuality(scene.get(), RTC_BUILD_QUALITY_MEDIUM);
   for (std::size_t m = 0; m < meshes.size(); ++m) {
     const Soup& soup = meshes[m];
@@ -149,40 +169,63 @@ Result<RayScene> RayScene::create(std::span<const TriangleMesh> meshes) {
   return RayScene(std::move(parts));
 }
 
+namespace {
+
+/// What Embree hands to the filter beside its own.
+struct Context {
+  RTCIntersectContext base;
+  const std::vector<Soup>* meshes;
+  const Ray* ray;
+  glm::dvec3 origin;  ///< relative to the middle
+  std::vector<Hit>* hits = nullptr;
+
+  Context(const std::vector<Soup>& all, const Ray& r, glm::dvec3 middle) : meshes(&all), ray(&r), origin(r.origin - middle) { rtcInitIntersectContext(&base); }
+};
+
+// One ray at a time. Leaves out backs, and where all hits are wanted takes each and lets the ray go on.
+void filter(const RTCFilterFunctionNArguments* a) {
+  const auto& context = *reinterpret_cast<const Context*>(a->context);
+  const std::uint32_t mesh = RTCHitN_geomID(a->hit, 1, 0), triangle = RTCHitN_primID(a->hit, 1, 0);
+  const Soup& soup = (*context.meshes)[mesh];
+  const bool culled = context.ray->cull && !soup.twoSided && glm::dot(soup.normal(triangle), context.ray->direction) > 0;
+  if (culled || context.hits) a->valid[0] = 0;
+  if (culled || !context.hits) return;
+  context.hits->push_back(hitOf(soup, mesh, triangle, {RTCHitN_u(a->hit, 1, 0), RTCHitN_v(a->hit, 1, 0)}, double(RTCRayN_tfar(a->ray, 1, 0)), context.origin, context.ray->direction));
+}
+
+}  // namespace
+
 Hit RayScene::nearest(const Ray& ray) const {
-  Hit hit;
-  if (!good(ray)) return hit;
+  if (!good(ray)) return {};
   RTCRayHit r{};
   r.ray = embreeRay(ray, parts_->middle);
   r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcIntersect1(parts_->scene.get(), &context, &r);
-  if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID) return hit;
-  const Soup& soup = parts_->meshes[r.hit.geomID];
-  const std::vector<std::uint32_t>& original = parts_->original[r.hit.geomID];
-  glm::dvec3 corner[3];
-  for (std::size_t c = 0; c < 3; ++c) corner[c] = glm::dvec3(soup.corners[soup.indices[r.hit.primID * std::size_t(3) + c]]);
-  const glm::dvec3 n = glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
-  const double length = glm::length(n), slope = glm::dot(n, ray.direction);
-  hit.mesh = r.hit.geomID;
-  hit.triangle = original.empty() ? r.hit.primID : original[r.hit.primID];
-  hit.barycentric = {r.hit.u, r.hit.v};
-  hit.normal = length > 0 ? n / length : glm::dvec3(0);
-  hit.back = slope > 0;
-  // The plane's distance in double: floats are good for finding the triangle, less for how far along the ray it is.
-  const double exact = glm::dot(n, corner[0] - (ray.origin - parts_->middle)) / slope;
-  const double slack = 1e-4 * std::abs(double(r.ray.tfar)) + 1e-30;
-  hit.distance = std::abs(exact - double(r.ray.tfar)) <= slack ? std::max(exact, 0.0) : double(r.ray.tfar);
-  return hit;
+  Context context(parts_->meshes, ray, parts_->middle);
+  if (ray.cull) context.base.filter = filter;
+  rtcIntersect1(parts_->scene.get(), &context.base, &r);
+  if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
+  return hitOf(parts_->meshes[r.hit.geomID], r.hit.geomID, r.hit.primID, {r.hit.u, r.hit.v}, double(r.ray.tfar), context.origin, ray.direction);
+}
+
+void RayScene::all(const Ray& ray, std::vector<Hit>& hits) const {
+  hits.clear();
+  if (!good(ray)) return;
+  RTCRayHit r{};
+  r.ray = embreeRay(ray, parts_->middle);
+  r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  Context context(parts_->meshes, ray, parts_->middle);
+  context.base.filter = filter;
+  context.hits = &hits;
+  rtcIntersect1(parts_->scene.get(), &context.base, &r);
+  std::sort(hits.begin(), hits.end(), [](const Hit& a, const Hit& b) { return std::tie(a.distance, a.mesh, a.triangle) < std::tie(b.distance, b.mesh, b.triangle); });
 }
 
 bool RayScene::occluded(const Ray& ray) const {
   if (!good(ray)) return false;
   RTCRay r = embreeRay(ray, parts_->middle);
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcOccluded1(parts_->scene.get(), &context, &r);
+  Context context(parts_->meshes, ray, parts_->middle);
+  if (ray.cull) context.base.filter = filter;
+  rtcOccluded1(parts_->scene.get(), &context.base, &r);
   return r.tfar < 0;  // Embree's way to say yes
 }
 

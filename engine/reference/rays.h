@@ -16,6 +16,7 @@ struct TriangleMesh {
   std::vector<glm::dvec3> positions;   ///< metres, world
   std::vector<std::uint32_t> indices;  ///< three a triangle, counter-clockwise seen from its front; triangles with a corner that is missing or not finite are never hit
   std::uint32_t mask = 1;              ///< a ray meets it if their masks share a bit
+  bool twoSided = false;               ///< its backs are seen too
 };
 
 /// The points origin + t · direction with from <= t <= to.
@@ -24,6 +25,7 @@ struct Ray {
   glm::dvec3 direction{0, 0, -1};     ///< any length above 0; a zero or non-finite ray hits nothing
   double from = 0, to = std::numeric_limits<double>::infinity();
   std::uint32_t mask = ~0u;
+  bool cull = false;                  ///< passes the backs of one-sided meshes, as a picture does
 };
 
 /// The nearest surface on a ray. Where two lie at the same distance it is always the same one of them.
@@ -48,6 +50,8 @@ class RayScene {
   ~RayScene();
 
   [[nodiscard]] Hit nearest(const Ray& ray) const;
+  /// All surfaces on the ray into `hits`, nearest first; at one distance in order of mesh and triangle.
+  void all(const Ray& ray, std::vector<Hit>& hits) const;
   /// Anything on the ray.
   [[nodiscard]] bool occluded(const Ray& ray) const;
   /// Anything between two points; what is within `gap` metres of either does not count.
