@@ -1,6 +1,8 @@
 // Scenes of boxes, and a search of all their triangles in double: what the tests of placement judge by.
 #pragma once
+#include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "probe/geometry.h"
 #include "render/deformed.h"
@@ -44,17 +46,17 @@ inline double meets(const Facet& f, dvec3 origin, dvec3 direction) {
 }
 inline bool seenFromBehind(const Facet& f, dvec3 direction) { return glm::dot(glm::cross(f.u, f.v), direction) > 0; }
 
-/// Inside a body: of several rays in irregular directions most leave through more backs than they enter through fronts.
+/// Inside a body: most rays in irregular directions leave one and the same instance through more backs than they enter through fronts.
 inline bool insideSolid(const std::vector<Facet>& facets, dvec3 point) {
-  int votes = 0;
   const dvec3 directions[] = {{0.531, 0.722, 0.443}, {-0.612, 0.431, -0.663}, {0.213, -0.911, 0.353}, {-0.377, -0.253, 0.891}, {0.845, 0.119, -0.521}};
+  std::map<std::uint32_t, int> votes;
   for (const dvec3& d : directions) {
-    int balance = 0;
+    std::map<std::uint32_t, int> balance;
     for (const Facet& f : facets)
-      if (f.opaque && !f.twoSided && std::isfinite(meets(f, point, d))) balance += seenFromBehind(f, d) ? 1 : -1;
-    votes += balance > 0;
+      if (f.opaque && !f.twoSided && std::isfinite(meets(f, point, d))) balance[f.instance.index] += seenFromBehind(f, d) ? 1 : -1;
+    for (const auto& [instance, count] : balance) votes[instance] += count > 0;
   }
-  return votes > 2;
+  return std::any_of(votes.begin(), votes.end(), [](const auto& v) { return v.second > 2; });
 }
 
 inline probe::Geometry geometryOf(const Scene& scene) {

@@ -135,6 +135,7 @@ TEST_CASE("a lattice is filled the same way by any number of threads", "[place][
         valid += one.points[i].valid;
         const dvec3 p = one.position({x, y, z});
         const bool inRoom = glm::all(glm::lessThan(glm::abs(p - dvec3(0, 1.25, 0)), dvec3(3, 1.25, 4)));
+        INFO(p.x << " " << p.y << " " << p.z);
         CHECK(one.points[i].valid == (inRoom && !insideSolid(facets, p)));
       }
   CHECK(same);
