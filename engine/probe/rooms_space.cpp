@@ -68,13 +68,13 @@ Sight lookFrom(const Geometry& geometry, glm::dvec3 point, WallAngles& walls) {
   for (int i = 0; i < kSightSize * kSightSize; ++i) {
     const Ray ray{point, shading::f64::distanceDirection(i % kSightSize + 0.5, double(i / kSightSize) + 0.5, kSightSize), 0, std::numeric_limits<double>::infinity(), kWalls};  // NOLINT(bugprone-integer-division)
     const Hit hit = geometry.rays.nearest(ray);
-    if (!hit)
+    if (!hit) {
       ++s.sky;
-    else if (geometry.surfaces[hit.mesh].twoSided)
-      ++s.others;
-    else
-      ++(seesBack(geometry, ray, hit) ? s.backs : s.fronts);
-    if (hit) seen.add(hit.normal);
+      continue;
+    }
+    const Side side = sideOf(geometry, ray, hit);
+    ++(side == Side::Front ? s.fronts : side == Side::Back ? s.backs : s.others);
+    seen.add(hit.normal);
   }
   if (s.inRoom()) walls.add(seen);
   return s;

@@ -157,12 +157,13 @@ TEST_CASE("furniture does not move the box, and the capture keeps clear of it", 
   furnish(s, to);
   const ProbeSet set = placed(s, withoutGrid());
   REQUIRE(set.reflections.size() == 2);
-  CHECK(corners(set.reflections[0], dvec3(0), {5, 2.7, 4}, to) < 0.01);
+  const ReflectionProbe& room = inBox(set.reflections[0], dvec3(to * glm::dvec4(1, 1, 1, 1))) ? set.reflections[0] : set.reflections[1];
+  CHECK(corners(room, dvec3(0), {5, 2.7, 4}, to) < 0.01);
   const probe::Geometry g = geometryOf(s);
   double nearest = INFINITY;
   std::mt19937_64 random(5);
   std::normal_distribution<double> n;
-  for (int i = 0; i < 5000; ++i) nearest = std::min(nearest, g.rays.nearest({set.reflections[0].capture, glm::normalize(dvec3(n(random), n(random), n(random)))}).distance);
+  for (int i = 0; i < 5000; ++i) nearest = std::min(nearest, g.rays.nearest({room.capture, glm::normalize(dvec3(n(random), n(random), n(random)))}).distance);
   CHECK(nearest > 0.3);
 }
 
@@ -317,7 +318,7 @@ TEST_CASE("scenes that are broken, empty, endless or flat end soon and quietly",
   std::mt19937_64 random(3);
   std::uniform_real_distribution<float> spread(-1, 1);
   Mesh soup;
-  for (int i = 0; i < 30000; ++i) {
+  for (int i = 0; i < 6000; ++i) {
     soup.positions.emplace_back(vec3(spread(random), spread(random), spread(random)) * std::pow(10.0f, 6 * spread(random)));
     soup.indices.push_back(std::uint32_t(i));
   }
@@ -356,8 +357,8 @@ TEST_CASE("the fps sample has its four rooms", "[place][fps]") {
     std::cout << room.name << ": corners off by " << best * 1000 << " mm at most\n";
     CHECK(best < 0.05);
   }
-  const std::vector<Facet> facets = facetsOf(*scene);
-  for (const ReflectionProbe& p : set.reflections) CHECK_FALSE(insideSolid(facets, p.capture));
+  const Solids solids(*scene);
+  for (const ReflectionProbe& p : set.reflections) CHECK_FALSE(solids.hold(p.capture));
   REQUIRE(set.grid);
   const AmbientGrid& g = *set.grid;
   int valid = 0, wrong = 0;
@@ -368,7 +369,7 @@ TEST_CASE("the fps sample has its four rooms", "[place][fps]") {
         const dvec3 p = g.position({x, y, z});
         ++valid;
         const bool inRoom = std::any_of(own.reflections.begin(), own.reflections.end(), [&](const ReflectionProbe& r) { return inBox(r, p); });
-        if (insideSolid(facets, p)) {
+        if (solids.hold(p)) {
           ++wrong;
           std::cout << "in something: " << p.x << " " << p.y << " " << p.z << (inRoom ? " in a room" : "") << "\n";
         }
