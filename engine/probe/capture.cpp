@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -13,13 +14,7 @@ namespace {
 
 /// Of the scene's diagonal: a point may be so near to a surface, and depths are floats whose precision does not depend on it (reversed, no far end).
 constexpr double kNearShare = 1e-5;
-constexpr double kNearest = 1e-5, kFarthest = 0.05;  // metres
-
-float nearOf(const Scene& scene) {
-  const Bounds b = scene.bounds();
-  const double diagonal = b.empty() ? 0 : double(glm::length(b.max - b.min));
-  return float(std::clamp(std::isfinite(diagonal) ? diagonal * kNearShare : 0, kNearest, kFarthest));
-}
+constexpr double kNearest = 0x1p-17, kFarthest = 0x1p-4;  // metres
 
 /// Columns right, up and back of a face's view: table 8.19 of the OpenGL 4.5 specification, s to the right and t upward.
 glm::dmat3 faceAxes(int face) {
@@ -31,7 +26,11 @@ glm::dmat3 faceAxes(int face) {
 
 class RendererCapture final : public Capture {
  public:
-  RendererCapture(ProcAddress address, Scene scene, const Quality& quality) : address_(std::move(address)), scene_(std::move(scene)), quality_(captureQuality(quality)), near_(nearOf(scene_)) {}
+  RendererCapture(ProcAddress address, Scene scene, const Quality& quality) : address_(std::move(address)), scene_(std::move(scene)), quality_(captureQuality(quality)), near_(captureNear(scene_)) {
+    // The disc is a directional light's: in a capture it would light once more. What lights is captured whether it is shown or not.
+    scene_.environment.sun.reset();
+    scene_.environment.background = true;
+  }
 
   Result<void> start() {
     auto made = Renderer::create(address_, {.hostState = HostState::Declared});
@@ -56,7 +55,7 @@ class RendererCapture final : public Capture {
     takeWarnings();
     auto picture = (*target)->read();
     if (!picture) return fail(picture.error());
-    return faces(*picture, size);
+    return facesOf(*picture, size, mended_);
   }
 
  private:
@@ -70,25 +69,6 @@ class RendererCapture final : public Capture {
       target = std::move(*made);
     }
     return target.get();
-  }
-
-  /// `picture`: rows from the top.
-  CubeLevel faces(const Image& picture, int size) {
-    CubeLevel cube{size, 0, std::vector<float>(std::size_t(size) * std::size_t(size) * 18)};
-    mended_ = 0;
-    float* out = cube.texels.data();
-    for (int face = 0; face < 6; ++face)
-      for (int y = 0; y < size; ++y) {
-        const int row = picture.height - 1 - (face / 3 * size + y);
-        const float* in = picture.f32() + (std::size_t(row) * std::size_t(picture.width) + std::size_t(face % 3 * size)) * 4;
-        for (int x = 0; x < size; ++x, in += 4)
-          for (int c = 0; c < 3; ++c, ++out) {
-            const bool good = in[c] >= 0 && std::isfinite(in[c]);
-            *out = good ? in[c] : 0;
-            mended_ += !good;
-          }
-      }
-    return cube;
   }
 
   void takeWarnings() {
@@ -108,6 +88,12 @@ class RendererCapture final : public Capture {
 
 }  // namespace
 
+float captureNear(const Scene& scene) {
+  const Bounds b = scene.bounds();
+  const double near = b.empty() ? 0 : double(glm::length(b.max - b.min)) * kNearShare;
+  return std::isfinite(near) ? float(std::clamp(std::exp2(std::floor(std::log2(std::max(near, kNearest)))), kNearest, kFarthest)) : float(kFarthest);
+}
+
 std::array<View, 6> faceViews(glm::dvec3 point, float near, int size, glm::ivec2 corner) {
   std::array<View, 6> views;
   for (int face = 0; face < 6; ++face) {
@@ -119,6 +105,24 @@ std::array<View, 6> faceViews(glm::dvec3 point, float near, int size, glm::ivec2
     v.viewport = {corner.x + face % 3 * size, corner.y + face / 3 * size, size, size};
   }
   return views;
+}
+
+CubeLevel facesOf(const Image& picture, int size, std::size_t& mended) {
+  CubeLevel cube{size, 0, std::vector<float>(std::size_t(size) * std::size_t(size) * 18)};
+  mended = 0;
+  float* out = cube.texels.data();
+  for (int face = 0; face < 6; ++face)
+    for (int y = 0; y < size; ++y) {
+      const int row = picture.height - 1 - (face / 3 * size + y);
+      const float* in = picture.f32() + (std::size_t(row) * std::size_t(picture.width) + std::size_t(face % 3 * size)) * 4;
+      for (int x = 0; x < size; ++x, in += 4)
+        for (int c = 0; c < 3; ++c, ++out) {
+          const bool good = in[c] >= 0 && std::isfinite(in[c]);
+          *out = good ? in[c] : 0;
+          mended += !good;
+        }
+    }
+  return cube;
 }
 
 Result<std::unique_ptr<Capture>> Capture::create(const ProcAddress& getProcAddress, Scene scene, const Quality& quality) {

@@ -11,9 +11,13 @@ Scene limited(const Scene& scene, double albedoLimit, const Quality& quality, Re
 /// The rungs that a capture uses: those of the quality, without what belongs to the picture or the screen.
 Quality captureQuality(const Quality& quality);
 
+/// Metres, under which a capture of that scene sees nothing: 1e-5 of its diagonal or less, a power of two, so that it stays while the scene changes a little.
+float captureNear(const Scene& scene);
 /// The six views of a cube's faces, in OpenGL's order, `size` pixels square each, in two rows of three whose lower left corner is at `corner` of a target. Row 0 of a face, as OpenGL stores it, is
 /// the lowest of its viewport. Nothing nearer than `near` metres is seen, and there is no far end.
 std::array<View, 6> faceViews(glm::dvec3 point, float near, int size, glm::ivec2 corner = {0, 0});
+/// The cube in the picture that those views drew (3 · size by 2 · size, F32 RGBA, rows from the top). `mended`: values that are not finite or negative, and 0 in the cube.
+CubeLevel facesOf(const Image& picture, int size, std::size_t& mended);
 
 class Capture {
  public:

@@ -29,8 +29,10 @@ class Limit {
   }
   /// What is reflected in all. F0 = base + metalness · albedo, diffuse = albedo - metalness · albedo.
   [[nodiscard]] double reflected(double base, double metalness, double albedo) const {
-    const double f0 = base + metalness * albedo, s = specular_ ? f0 + (1 - f0) / 21 : 0, d = diffuse_ ? albedo * (1 - metalness) : 0;
-    return s + d * (apart_ ? 1 : 1 - s);
+    const double lobe = specular_ ? mean(base + metalness * albedo) : 0, diffuse = diffuse_ ? albedo * (1 - metalness) : 0;
+    // Of a part that is no metal the rungs take what that part's own lobe reflects.
+    const double taken = apart_ || !specular_ || metalness >= 1 ? 0 : mean(base / (1 - metalness));
+    return lobe + diffuse * (1 - taken);
   }
   /// The largest albedo that keeps the limit, at most 1; 0 where the lobe alone passes it.
   [[nodiscard]] double largest(double base, double metalness) const {
@@ -42,6 +44,8 @@ class Limit {
   [[nodiscard]] const std::array<double, 256>& byCode() const { return byCode_; }
 
  private:
+  static double mean(double f0) { return f0 + (1 - f0) / 21; }
+
   double limit_;
   bool specular_, diffuse_, apart_;
   std::array<double, 256> byCode_{};
