@@ -8,6 +8,7 @@ find_package(OpenEXR REQUIRED)
 find_package(glfw3 REQUIRED)
 find_package(Threads REQUIRED)
 find_package(HWY REQUIRED CONFIG)
+find_package(embree 3.13 REQUIRED)
 find_path(KISSFFT_INCLUDE_DIR kissfft/kissfft.hh REQUIRED)  # header only
 
 # What the public headers include.

@@ -6,6 +6,7 @@
 
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -110,6 +111,21 @@ struct Sky {
   glm::vec3 ground{0.2f};
   float altitude = 2;
 };
+/// A place of a reflection probe: a box around its node, along the node's axes.
+struct ProbeBox {
+  glm::dvec3 halfSize{1};              ///< in the node's space, above 0
+  std::optional<glm::dvec3> capture;   ///< in the node's space; none: the node's origin
+  std::optional<glm::dvec3> fade;      ///< metres
+  std::optional<double> margin;        ///< metres
+};
+/// A place of the lattice of ambient probes, likewise.
+struct ProbeGrid {
+  glm::dvec3 halfSize{1};              ///< in the node's space, above 0
+  glm::dvec3 spacing{1};               ///< metres, above 0; without `counts`
+  std::optional<glm::ivec3> counts;    ///< at least 1 each, at most kMaxProbePoints together
+  std::optional<double> margin;        ///< metres
+};
+inline constexpr int kMaxProbePoints = 1 << 20;
 struct Node {
   std::string name;
   int parent = -1;
@@ -119,6 +135,8 @@ struct Node {
   std::vector<float> weights;  ///< of the mesh's morph targets; empty: the mesh's own
   glm::dvec3 translation{0}, scale{1};  ///< with `rotation` what `local` is made of, where the file gives no matrix
   glm::dquat rotation{1, 0, 0, 0};
+  std::optional<ProbeBox> probe;
+  std::optional<ProbeGrid> probeGrid;
 };
 struct Skin {
   std::string name;

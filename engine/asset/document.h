@@ -81,6 +81,8 @@ struct NodeSource {
   glm::dvec3 translation{0}, scale{1};
   glm::dquat rotation{1, 0, 0, 0};
   bool hasMatrix = false;
+  std::optional<ProbeBox> probe;
+  std::optional<ProbeGrid> probeGrid;
   std::vector<double> weights;
 };
 struct SkinSource {
@@ -134,6 +136,8 @@ void parseBuffers(const At& root, Check& check, Document& doc);
 void parseMaterials(const At& root, Check& check, Document& doc);
 void parseMeshes(const At& root, Check& check, Document& doc);
 void parseNodes(const At& root, Check& check, Document& doc);
+/// A node's places of probes; its name, mesh, camera and light are known.
+void parseProbes(const At& node, Check& check, NodeSource& out);
 void parseAnimations(const At& root, Check& check, Document& doc);
 
 /// Tables against each other, before any byte of binary data is read.

@@ -52,7 +52,8 @@ std::vector<Node> buildNodes(Check& check, const Document& doc, std::vector<int>
     push(n.children, int(out.size()));
     shown[std::size_t(todo.source)] = int(out.size());
     out.push_back({n.name, todo.parent, n.local, n.mesh, n.camera, n.light, n.skin,
-                   std::vector<float>(n.weights.begin(), n.weights.end()), n.translation, n.scale, n.rotation});
+                   std::vector<float>(n.weights.begin(), n.weights.end()), n.translation, n.scale, n.rotation,
+                   n.probe, n.probeGrid});
   }
   return out;
 }

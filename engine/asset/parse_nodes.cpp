@@ -164,6 +164,7 @@ void parseNode(const At& at, Check& check, Document& doc) {
     check.known(e, {"light"});
     n.light = check.reference(e, "light", Table::Lights, Need::Required);
   });
+  parseProbes(at, check, n);
 }
 
 void parseSkin(const At& at, Check& check, Document& doc) {

@@ -5,6 +5,7 @@
 
 #include "core/file.h"
 #include "scene/convert_material.h"
+#include "scene/import_probes.h"
 #include "scene/load.h"
 #include "scene/tangents.h"
 #include "scene/validate.h"
@@ -24,6 +25,7 @@ class Importer {
     if (auto r = materials(); !r) return fail(r.error());
     if (auto r = meshes(); !r) return fail(r.error());
     nodes();
+    importProbes(asset_, nodes_, scene_, report_);
     animations();
     if (const auto& sky = asset_.sky) setSky(scene_, {sky->sun, sky->turbidity, sky->ground, sky->altitude}, report_);
     return std::move(scene_);

@@ -11,6 +11,7 @@
 #include "shading/shade.h"
 #include "shading/sampling.h"
 #include "shading/environment.h"
+#include "shading/grid.h"
 #include "shading/occlusion.h"
 #include "shading/history.h"
 #include "shading/transmission.h"
