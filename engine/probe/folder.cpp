@@ -49,7 +49,8 @@ class Payloads {
     for (fs::directory_iterator it(folder_, error), end; !error && it != end; it.increment(error)) {
       const std::string name = it->path().filename().string();
       const bool ours = isPayloadName(name) && (name.starts_with("reflection_") || name.starts_with("grid_"));
-      if (ours && !kept_.contains(name)) stale.push_back(it->path());
+      const bool leftover = name.starts_with(".burnish-") && name.ends_with(".tmp");  // of a writer that was killed: there is no other one now
+      if (leftover || (ours && !kept_.contains(name))) stale.push_back(it->path());
     }
     for (const fs::path& file : stale) fs::remove(file, error);
   }

@@ -39,7 +39,13 @@ inline std::string textOf(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
 }
-inline void put(const fs::path& file, const std::string& text) { std::ofstream(file, std::ios::binary) << text; }
+/// As a new file: some file systems flush one that is cut to nothing first.
+inline void put(const fs::path& file, const std::string& text) {
+  std::error_code ignored;
+  if (!fs::is_symlink(file)) fs::remove(file, ignored);
+  std::ofstream(file, std::ios::binary) << text;
+}
+inline void setByte(const fs::path& file, std::size_t at, char value) { std::fstream(file, std::ios::binary | std::ios::in | std::ios::out).seekp(std::streamoff(at)).put(value); }
 /// Names, relative to the folder, and bytes of all that a folder holds.
 inline std::map<std::string, std::string> contentOf(const fs::path& folder) {
   std::map<std::string, std::string> out;
