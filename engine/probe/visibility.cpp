@@ -13,21 +13,12 @@ namespace {
 
 using reference::Hit;
 using reference::Ray;
-namespace shading = shading::f64;
+namespace shading = burnish::shading::f64;
 
 constexpr int kLookSize = 8;        // an octahedral map of so many texels a side: directions for the looks around that need no map
 constexpr int kRaysPerTexelSide = 2;  // of a map of distances: its square: rays a texel
 
 glm::dvec3 lookDirection(int i) { return shading::distanceDirection(i % kLookSize + 0.5, i / kLookSize + 0.5, kLookSize); }  // NOLINT(bugprone-integer-division)
-
-/// Where two sheets lie on each other, back to back, the one that faces the ray is what is there.
-bool seesBack(const Geometry& geometry, const Ray& ray, const Hit& hit) {
-  if (!hit.back || geometry.surfaces[hit.mesh].twoSided) return false;
-  Ray again = ray;
-  again.cull = true;
-  again.to = hit.distance + 1e-6 * std::abs(hit.distance) + 4 * geometry.rays.rounding();
-  return !geometry.rays.nearest(again);
-}
 
 bool lattice(const AmbientGrid& grid) {
   for (int k = 0; k < 3; ++k)
@@ -36,6 +27,14 @@ bool lattice(const AmbientGrid& grid) {
 }
 
 }  // namespace
+
+bool seesBack(const Geometry& geometry, const Ray& ray, const Hit& hit) {
+  if (!hit.back || geometry.surfaces[hit.mesh].twoSided) return false;
+  Ray again = ray;
+  again.cull = true;
+  again.to = hit.distance + 1e-6 * std::abs(hit.distance) + 4 * geometry.rays.rounding();
+  return !geometry.rays.nearest(again);
+}
 
 bool isFree(const Geometry& geometry, glm::dvec3 point, double touch) {
   int fronts = 0, backs = 0;
@@ -61,7 +60,7 @@ AmbientGrid::Point lookAround(const Geometry& geometry, glm::dvec3 point, glm::d
   constexpr int kSize = AmbientGrid::kDistanceSize;
   const double limit = shading::distanceLimit(spacing);
   AmbientGrid::Point out;
-  out.valid = isFree(geometry, point, std::min(kTouch, 0.05 * std::min({spacing.x, spacing.y, spacing.z})));
+  out.valid = isFree(geometry, point, kTouchShare * std::min({spacing.x, spacing.y, spacing.z}));
   out.distances.resize(kSize * kSize);
   for (int y = 0; y < kSize; ++y)
     for (int x = 0; x < kSize; ++x) {

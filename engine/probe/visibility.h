@@ -6,8 +6,11 @@
 
 namespace burnish::probe {
 
-/// A surface nearer than this is touched: a picture from there shows little else. metres; a twentieth of the lattice's closest spacing where that is less.
-inline constexpr double kTouch = 0.05;
+/// A surface nearer than this is touched: a picture from there shows little else. metres; and of a lattice's points a share of its closest spacing.
+inline constexpr double kTouch = 0.05, kTouchShare = 0.02;
+
+/// Whether what the ray met (geometry.rays.nearest) is the back of a one-sided surface. Where two sheets lie on each other, back to back, the one that faces the ray is what is there.
+bool seesBack(const Geometry& geometry, const reference::Ray& ray, const reference::Hit& hit);
 
 /// Whether a point is free: not inside something (most of the rays from it that meet a one-sided surface see its back), and nothing opaque is nearer than `touch`.
 bool isFree(const Geometry& geometry, glm::dvec3 point, double touch = kTouch);
