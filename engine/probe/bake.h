@@ -42,7 +42,8 @@ Result<void> finishBake(const Paths& paths, const BakeState& state, const ProbeS
 /// How long the rest takes, from what was measured.
 class TimeLeft {
  public:
-  TimeLeft(const BakeOptions& options, int reflections, int gridPoints) : options_(options), reflections_(reflections), gridPoints_(gridPoints) {}
+  /// `alone`: no bounce follows.
+  TimeLeft(const BakeOptions& options, bool alone, int reflections, int gridPoints) : options_(options), alone_(alone), reflections_(reflections), gridPoints_(gridPoints) {}
   void captured(bool reflection, double seconds);
   /// Seconds, negative while nothing was measured. `left`: of this bounce.
   [[nodiscard]] double seconds(int leftReflections, int leftGridPoints, int bounce, std::span<const BounceReport> bounces) const;
@@ -52,6 +53,7 @@ class TimeLeft {
   [[nodiscard]] double bouncesAfter(int bounce, std::span<const BounceReport> bounces) const;
 
   const BakeOptions& options_;
+  bool alone_;
   int reflections_, gridPoints_;
   double sum_[2] = {};
   int count_[2] = {};

@@ -26,6 +26,7 @@ double TimeLeft::each(bool reflection) const {
 }
 
 double TimeLeft::bouncesAfter(int bounce, std::span<const BounceReport> bounces) const {
+  if (alone_) return 0;
   if (options_.bounces > 0) return std::max(options_.bounces - bounce, 0);
   const BounceReport* last = bounces.empty() ? nullptr : &bounces.back();
   const bool known = last && std::isfinite(last->rest) && last->ratio > 0 && last->ratio < 1;
@@ -42,7 +43,7 @@ double TimeLeft::seconds(int leftReflections, int leftGridPoints, int bounce, st
 
 Baker::Baker(const ProcAddress& getProcAddress, const Paths& paths, const Prepared& prepared, const BakeOptions& options, const BakeJob& job, LightStore& store, Report& report)
     : getProcAddress_(getProcAddress), paths_(paths), prepared_(prepared), options_(options), job_(job), store_(store), report_(report),
-      left_(options, int(prepared.places.reflections.size()), captureCount(prepared.places) - int(prepared.places.reflections.size())) {
+      left_(options, job.bounce > 0, int(prepared.places.reflections.size()), captureCount(prepared.places) - int(prepared.places.reflections.size())) {
   const std::vector<Unit> all = unitsOf(prepared.places);
   for (std::size_t i = 0; i < all.size(); ++i)
     if (int(i % std::size_t(job.shards)) == job.shard) units_.push_back(all[i]);
