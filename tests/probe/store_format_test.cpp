@@ -213,6 +213,7 @@ TEST_CASE("A new set takes an old one's place, whose files go; what is not ours 
   other.reflections.resize(1);
   other.reflections[0].radiance.levels[0].texels[7] = 3;
   REQUIRE(write(box.path / "a", other));
+  CHECK(read(box.path / "a").reflections.size() == 1);
   REQUIRE(write(box.path / "b", other));
   auto a = contentOf(box.path / "a");
   CHECK(a.erase("notes.txt") + a.erase("lightmap.ktx2") == 2);
