@@ -1,6 +1,8 @@
 // What a cubemap file says of its levels beside their texels.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 
@@ -12,7 +14,7 @@
 namespace burnish::image {
 namespace {
 
-constexpr std::string_view kLobe = "BurnishLobe", kRoughness = "BurnishRoughness", kVersion = "BurnishVersion";
+constexpr std::string_view kLobe = "BurnishLobe", kRoughness = "BurnishRoughness", kVersion = "BurnishVersion", kScale = "BurnishScale";
 constexpr std::string_view kLobeNames[] = {"blinn-phong", "ggx"};
 constexpr std::string_view kMappingVersion = "1";
 
@@ -44,11 +46,32 @@ std::string_view valueOf(const Metadata& metadata, std::string_view key) {
   return {};
 }
 
-Metadata metadataOf(const Cubemap& cubemap, std::string_view writerKey) {
+Metadata metadataOf(const Cubemap& cubemap, std::string_view writerKey, double scale) {
   std::string roughness;
   for (const CubeLevel& level : cubemap.levels) roughness += fmt::format("{}{}", roughness.empty() ? "" : " ", level.roughness);
   const std::string_view lobe = cubemap.lobe ? kLobeNames[static_cast<std::size_t>(*cubemap.lobe)] : "none";
-  return {{std::string(kLobe), std::string(lobe)}, {std::string(kRoughness), roughness}, {std::string(kVersion), std::string(kMappingVersion)}, {std::string(writerKey), writerName()}};
+  Metadata out = {{std::string(kLobe), std::string(lobe)}, {std::string(kRoughness), roughness}};
+  if (scale != 1) out.emplace_back(kScale, fmt::format("{}", scale));
+  out.emplace_back(kVersion, kMappingVersion);
+  out.emplace_back(writerKey, writerName());
+  return out;
+}
+
+double halfScale(const Cubemap& cubemap) {
+  float most = 0;
+  for (const CubeLevel& level : cubemap.levels)
+    for (const float v : level.texels) most = std::max(most, v);
+  if (!(most > 0 && std::isfinite(most))) return 1;
+  const auto rounded = [&](double scale) {
+    const std::array<float, 1> in{static_cast<float>(most / scale)};
+    std::array<std::uint16_t, 1> half{};
+    std::array<float, 1> out{};
+    floatToHalf(in, half);
+    halfToFloat(half, out);
+    return out[0];
+  };
+  const double scale = std::ldexp(1.0, std::max(std::ilogb(most) - 14, -126));
+  return rounded(scale) < 32768 ? scale : 2 * scale;
 }
 
 Result<void> applyMetadata(Cubemap& cubemap, const Metadata& metadata, std::string_view name) {
@@ -67,8 +90,21 @@ Result<void> applyMetadata(Cubemap& cubemap, const Metadata& metadata, std::stri
       return badMetadata(name, fmt::format("{} {} of level {} is outside 0 to 1, less than the one before, or has no lobe", kRoughness, values[k], k));
     cubemap.levels[k].roughness = values[k];
   }
+  const double scale = scaleOf(metadata);
+  if (scale == 0) return badMetadata(name, fmt::format("{} is '{}', no power of two from 2^-127 to 2^126", kScale, valueOf(metadata, kScale).substr(0, 40)));
+  for (CubeLevel& level : cubemap.levels)
+    for (float& v : level.texels) v *= static_cast<float>(scale);
   cubemap.lobe = found;
   return {};
+}
+
+double scaleOf(const Metadata& metadata) {
+  const std::string_view text = valueOf(metadata, kScale);
+  if (text.empty()) return 1;
+  std::vector<double> values;
+  int exponent = 0;
+  const bool good = parseNumbers(text, values) && values.size() == 1 && values[0] > 0 && std::frexp(values[0], &exponent) == 0.5 && std::abs(exponent) <= 127;
+  return good ? values[0] : 0;
 }
 
 std::vector<std::byte> encodeKeyValues(const Metadata& metadata) {
@@ -123,10 +159,14 @@ Result<void> checkCubemap(const Cubemap& cubemap, std::string_view name) {
   return {};
 }
 
-std::vector<std::byte> encodeLevel(const CubeLevel& level, PixelType type) {
+std::vector<std::byte> encodeLevel(const CubeLevel& level, PixelType type, double scale) {
   const std::size_t texels = level.texels.size() / 3;
   std::vector<float> rgba(texels * 4, 1.0f);
-  for (std::size_t i = 0; i < level.texels.size(); ++i) rgba[i / 3 * 4 + i % 3] = type == PixelType::F16 ? std::min(level.texels[i], kHalfMax) : level.texels[i];
+  const auto inverse = static_cast<float>(1 / scale);
+  for (std::size_t i = 0; i < level.texels.size(); ++i) {
+    const float v = level.texels[i] * inverse;
+    rgba[i / 3 * 4 + i % 3] = type == PixelType::F16 ? std::min(v, kHalfMax) : v;
+  }
   std::vector<std::byte> bytes(rgba.size() * static_cast<std::size_t>(bytesPerChannel(type)));
   if (type == PixelType::F16)
     floatToHalf(rgba, {reinterpret_cast<std::uint16_t*>(bytes.data()), rgba.size()});

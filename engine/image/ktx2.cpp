@@ -2,54 +2,28 @@
 // of a level stand together, in the order +X -X +Y -Y +Z -Z; the smallest level comes first. Numbers are little-endian.
 #include <fmt/format.h>
 
-#include "image/bytes.h"
 #include "image/cube_file.h"
 #include "image/cube_texels.h"
+#include "image/ktx2_parts.h"
 
 namespace burnish::image {
 namespace {
 
-constexpr std::string_view kIdentifier("\xabKTX 20\xbb\r\n\x1a\n", 12);
-constexpr std::size_t kHeaderBytes = 80, kLevelBytes = 24;
-
-struct Header {
-  std::uint32_t vkFormat = 0, typeSize = 0, width = 0, height = 0, depth = 0, layers = 0, faces = 0, levels = 0, supercompression = 0;
-  std::uint32_t dfdOffset = 0, dfdBytes = 0, kvdOffset = 0, kvdBytes = 0;
-};
-
-tl::unexpected<Error> damaged(std::string_view name, std::size_t at, std::string what) {
-  return fail(fmt::format("{}: byte {}", name, at), "is a damaged KTX2 file: " + std::move(what), "export the file again");
-}
-tl::unexpected<Error> unsupported(std::string_view name, std::size_t at, std::string what, const char* remedy) {
-  return fail(fmt::format("{}: byte {}", name, at), "is a KTX2 file of a kind that is not read here: " + std::move(what), remedy);
-}
-
-Result<Header> readHeader(Bytes& in, std::string_view name) {
-  Header h;
-  in.skip(kIdentifier.size());
-  h.vkFormat = in.leU32(), h.typeSize = in.leU32(), h.width = in.leU32(), h.height = in.leU32(), h.depth = in.leU32();
-  h.layers = in.leU32(), h.faces = in.leU32(), h.levels = in.leU32(), h.supercompression = in.leU32();
-  h.dfdOffset = in.leU32(), h.dfdBytes = in.leU32(), h.kvdOffset = in.leU32(), h.kvdBytes = in.leU32();
-  in.skip(16);  // supercompression's global data
-  if (in.bad()) return damaged(name, in.position(), "its header is cut off");
-  return h;
-}
-
-Result<void> checkShape(const Header& h, std::string_view name) {
+Result<void> checkShape(const Ktx2Header& h, std::string_view name) {
   const char* remedy = "export a cube map with six faces";
-  if (h.faces != 6) return unsupported(name, 36, fmt::format("{} faces, no cube", h.faces), remedy);
-  if (h.layers > 1) return unsupported(name, 32, fmt::format("an array of {} cubes", h.layers), "export one cube");
-  if (h.depth != 0) return unsupported(name, 28, "a volume", remedy);
-  if (h.width == 0 || h.width != h.height || h.width > 0x7fffffff / 2) return damaged(name, 20, fmt::format("its faces are {} x {}, not square", h.width, h.height));
+  if (h.faces != 6) return unsupportedKtx2(name, 36, fmt::format("{} faces, no cube", h.faces), remedy);
+  if (h.layers > 1) return unsupportedKtx2(name, 32, fmt::format("an array of {} cubes", h.layers), "export one cube");
+  if (h.depth != 0) return unsupportedKtx2(name, 28, "a volume", remedy);
+  if (h.width == 0 || h.width != h.height || h.width > 0x7fffffff / 2) return damagedKtx2(name, 20, fmt::format("its faces are {} x {}, not square", h.width, h.height));
   if (h.supercompression != 0) {
     constexpr std::string_view kNames[] = {"", "BasisLZ", "Zstandard", "ZLIB"};
     const std::string scheme = h.supercompression < 4 ? std::string(kNames[h.supercompression]) : fmt::format("scheme {}", h.supercompression);
-    return unsupported(name, 44, "supercompressed with " + scheme, "export it without supercompression");
+    return unsupportedKtx2(name, 44, "supercompressed with " + scheme, "export it without supercompression");
   }
   return {};
 }
 
-Result<TexelLayout> layoutOf(const Header& h, std::string_view name) {
+Result<TexelLayout> layoutOf(const Ktx2Header& h, std::string_view name) {
   switch (h.vkFormat) {
     case 23: return TexelLayout{TexelFormat::Rgb8, false, "R8G8B8_UNORM"};
     case 29: return TexelLayout{TexelFormat::Rgb8, true, "R8G8B8_SRGB"};
@@ -65,71 +39,55 @@ Result<TexelLayout> layoutOf(const Header& h, std::string_view name) {
     case 109: return TexelLayout{TexelFormat::Rgba32F, false, "R32G32B32A32_SFLOAT"};
     case 122: return TexelLayout{TexelFormat::Rg11B10F, false, "B10G11R11_UFLOAT_PACK32"};
     case 123: return TexelLayout{TexelFormat::Rgb9E5, false, "E5B9G9R9_UFLOAT_PACK32"};
-    case 0: return unsupported(name, 12, "Basis Universal or another format without a Vulkan name", "export R16G16B16A16_SFLOAT");
-    default: return unsupported(name, 12, fmt::format("Vulkan format {}", h.vkFormat), "export R16G16B16A16_SFLOAT or R32G32B32A32_SFLOAT");
+    case 0: return unsupportedKtx2(name, 12, "Basis Universal or another format without a Vulkan name", "export R16G16B16A16_SFLOAT");
+    default: return unsupportedKtx2(name, 12, fmt::format("Vulkan format {}", h.vkFormat), "export R16G16B16A16_SFLOAT or R32G32B32A32_SFLOAT");
   }
 }
 
 /// Texels of level k, from where the level index says that they are.
 Result<void> readLevel(CubeLevel& level, int k, std::span<const std::byte> file, const TexelLayout& layout, std::string_view name) {
-  const std::size_t entry = kHeaderBytes + kLevelBytes * static_cast<std::size_t>(k);
+  const std::size_t entry = kKtx2HeaderBytes + kKtx2LevelBytes * static_cast<std::size_t>(k);
   Bytes in(file.subspan(entry));
   const std::uint64_t offset = in.leU64(), bytes = in.leU64();
   const std::uint64_t expected = level.texels.size() / 3 * bytesPerTexel(layout.format);
-  if (bytes != expected) return damaged(name, entry + 8, fmt::format("level {} is {} bytes long, not {}", k, bytes, expected));
-  if (offset > file.size() || bytes > file.size() - offset) return damaged(name, entry, fmt::format("level {} lies at {}, past the end at {}", k, offset, file.size()));
+  if (bytes != expected) return damagedKtx2(name, entry + 8, fmt::format("level {} is {} bytes long, not {}", k, bytes, expected));
+  if (offset > file.size() || bytes > file.size() - offset) return damagedKtx2(name, entry, fmt::format("level {} lies at {}, past the end at {}", k, offset, file.size()));
   decodeTexels(layout, file.subspan(offset, bytes), level.texels);
   return {};
 }
 
-Result<void> readMetadata(CubeFile& out, const Header& h, std::span<const std::byte> file, std::string_view name) {
+Result<void> readMetadata(CubeFile& out, const Ktx2Header& h, std::span<const std::byte> file, std::string_view name) {
   if (h.kvdBytes == 0) return {};
-  if (h.kvdOffset > file.size() || h.kvdBytes > file.size() - h.kvdOffset) return damaged(name, 56, fmt::format("its metadata at {} reaches past the end at {}", h.kvdOffset, file.size()));
+  if (h.kvdOffset > file.size() || h.kvdBytes > file.size() - h.kvdOffset) return damagedKtx2(name, 56, fmt::format("its metadata at {} reaches past the end at {}", h.kvdOffset, file.size()));
   const auto metadata = decodeKeyValues(file.subspan(h.kvdOffset, h.kvdBytes), h.kvdOffset, name);
   if (!metadata) return fail(metadata.error());
   if (const std::string_view turned = valueOf(*metadata, "KTXorientation"); !turned.empty() && turned != "rd")
-    return unsupported(name, h.kvdOffset, fmt::format("KTXorientation '{}'", turned.substr(0, 8)), "export it as 'rd', which cubes must have");
+    return unsupportedKtx2(name, h.kvdOffset, fmt::format("KTXorientation '{}'", turned.substr(0, 8)), "export it as 'rd', which cubes must have");
   out.writer = valueOf(*metadata, "KTXwriter");
+  out.scale = scaleOf(*metadata);
   return applyMetadata(out.cube, *metadata, name);
-}
-
-/// Basic descriptor block of RGBA floats: version 2 (Data Format 1.3), RGBSDA, BT.709, linear, straight alpha.
-void writeDescriptor(ByteWriter& out, std::uint32_t channelBits) {
-  constexpr std::uint32_t kSamples = 4, kBlock = 24 + 16 * kSamples;
-  out.u32(4 + kBlock);
-  out.u32(0);
-  out.u32(2 | kBlock << 16);
-  out.u32(1 | 1 << 8 | 1 << 16);
-  out.u32(0);
-  out.u32(channelBits / 2), out.u32(0);  // bytes of a texel: 4 channels / 8 bits
-  for (std::uint32_t c = 0; c < kSamples; ++c) {
-    const std::uint32_t channel = c == 3 ? 15 : c, floatSigned = 0xc0;
-    out.u32(c * channelBits | (channelBits - 1) << 16 | (channel | floatSigned) << 24);
-    out.u32(0);
-    out.u32(0xbf800000), out.u32(0x3f800000);  // -1 and 1
-  }
 }
 
 }  // namespace
 
-bool isKtx2(std::span<const std::byte> file) { return file.size() >= kIdentifier.size() && std::memcmp(file.data(), kIdentifier.data(), kIdentifier.size()) == 0; }
+bool isKtx2(std::span<const std::byte> file) { return file.size() >= kKtx2Identifier.size() && std::memcmp(file.data(), kKtx2Identifier.data(), kKtx2Identifier.size()) == 0; }
 
 Result<CubeFile> decodeKtx2(std::span<const std::byte> file, std::string_view name, const DecodeLimits& limits) {
   Bytes in(file);
-  const auto header = readHeader(in, name);
+  const auto header = readKtx2Header(in, name);
   if (!header) return fail(header.error());
   if (auto ok = checkShape(*header, name); !ok) return fail(ok.error());
   const auto layout = layoutOf(*header, name);
   if (!layout) return fail(layout.error());
   const int size = static_cast<int>(header->width);
-  if (header->levels > static_cast<std::uint32_t>(fullChain(size))) return damaged(name, 40, fmt::format("{} levels of faces of {}", header->levels, size));
+  if (header->levels > static_cast<std::uint32_t>(fullChain(size))) return damagedKtx2(name, 40, fmt::format("{} levels of faces of {}", header->levels, size));
   const int levels = std::max(static_cast<int>(header->levels), 1);
-  if (in.left() < kLevelBytes * static_cast<std::size_t>(levels)) return damaged(name, file.size(), "its level index is cut off");
+  if (in.left() < kKtx2LevelBytes * static_cast<std::size_t>(levels)) return damagedKtx2(name, file.size(), "its level index is cut off");
   if (auto ok = checkCubeLimits(size, levels, limits, name); !ok) return fail(ok.error());
   std::uint64_t texels = 0;
   for (int k = 0; k < levels; ++k) texels += cubeTexels(levelSize(size, k));
   if (texels * bytesPerTexel(layout->format) > file.size())
-    return damaged(name, file.size(), fmt::format("it ends there, and {} levels of faces of {} take {} bytes", levels, size, texels * bytesPerTexel(layout->format)));
+    return damagedKtx2(name, file.size(), fmt::format("it ends there, and {} levels of faces of {} take {} bytes", levels, size, texels * bytesPerTexel(layout->format)));
 
   CubeFile out;
   out.format = fmt::format("KTX2 cube, {}", layout->name);
@@ -142,20 +100,19 @@ Result<CubeFile> decodeKtx2(std::span<const std::byte> file, std::string_view na
   return out;
 }
 
-std::vector<std::byte> encodeKtx2(const Cubemap& cubemap, PixelType type) {
+std::vector<std::byte> encodeKtx2(const Cubemap& cubemap, PixelType type, double scale) {
   const auto size = static_cast<std::uint32_t>(cubemap.levels[0].size);
   const std::size_t levels = cubemap.levels.size(), texel = type == PixelType::F16 ? 8 : 16;  // both are multiples of 4: the alignment of levels
-  ByteWriter descriptor;
-  writeDescriptor(descriptor, type == PixelType::F16 ? 16 : 32);
-  const std::vector<std::byte> dfd = descriptor.take(), kvd = encodeKeyValues(metadataOf(cubemap));
-  const std::size_t dfdAt = kHeaderBytes + kLevelBytes * levels, kvdAt = dfdAt + dfd.size();
+  const std::vector<std::byte> dfd = ktx2Descriptor(4, type == PixelType::F16 ? 16 : 32), kvd = encodeKeyValues(metadataOf(cubemap, "KTXwriter", scale));
+  const std::size_t dfdAt = kKtx2HeaderBytes + kKtx2LevelBytes * levels, kvdAt = dfdAt + dfd.size();
 
+  Ktx2Header header;
+  header.vkFormat = type == PixelType::F16 ? 97 : 109, header.typeSize = type == PixelType::F16 ? 2 : 4;
+  header.width = header.height = size, header.faces = 6, header.levels = static_cast<std::uint32_t>(levels);
+  header.dfdOffset = static_cast<std::uint32_t>(dfdAt), header.dfdBytes = static_cast<std::uint32_t>(dfd.size());
+  header.kvdOffset = static_cast<std::uint32_t>(kvdAt), header.kvdBytes = static_cast<std::uint32_t>(kvd.size());
   ByteWriter out;
-  out.text(kIdentifier);
-  out.u32(type == PixelType::F16 ? 97 : 109), out.u32(type == PixelType::F16 ? 2 : 4), out.u32(size), out.u32(size), out.u32(0);
-  out.u32(0), out.u32(6), out.u32(static_cast<std::uint32_t>(levels)), out.u32(0);
-  out.u32(static_cast<std::uint32_t>(dfdAt)), out.u32(static_cast<std::uint32_t>(dfd.size())), out.u32(static_cast<std::uint32_t>(kvdAt)), out.u32(static_cast<std::uint32_t>(kvd.size()));
-  out.u64(0), out.u64(0);
+  writeKtx2Header(out, header);
   const std::size_t first = (kvdAt + kvd.size() + texel - 1) / texel * texel;
   for (std::size_t k = 0; k < levels; ++k) {
     std::size_t at = first;
@@ -166,7 +123,7 @@ std::vector<std::byte> encodeKtx2(const Cubemap& cubemap, PixelType type) {
   out.bytes(dfd);
   out.bytes(kvd);
   out.align(texel);
-  for (std::size_t k = levels; k-- > 0;) out.bytes(encodeLevel(cubemap.levels[k], type));
+  for (std::size_t k = levels; k-- > 0;) out.bytes(encodeLevel(cubemap.levels[k], type, scale));
   return out.take();
 }
 

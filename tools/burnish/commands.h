@@ -12,6 +12,7 @@ struct Command {
 
 Command addRender(CLI::App& program);
 Command addPlan(CLI::App& program);
+Command addBake(CLI::App& program);
 Command addPrefilter(CLI::App& program);
 Command addInspect(CLI::App& program);
 Command addDoctor(CLI::App& program);

@@ -1,4 +1,4 @@
-// burnish inspect: what a scene, picture or cubemap holds and what is wrong with it; what a substance is.
+// burnish inspect: what a scene, picture, cubemap or probe folder holds and what is wrong with it; what a substance is.
 #include "inspect.h"
 
 #include <fmt/format.h>
@@ -57,13 +57,24 @@ int inspectCubemap(const fs::path& file, const std::string& given) {
   return kOk;
 }
 
+int inspectProbes(const fs::path& folder, const std::string& given) {
+  Progress progress;
+  progress.stage("loading " + folder.string());
+  const auto found = burnish::inspectProbes(folder);
+  progress.finish();
+  if (!found) return printError(found.error());
+  printProbes(*found, given);
+  return kOk;
+}
+
 int inspectFile(const std::string& given) {
   std::error_code error;
   if (fs::path(given).filename().string().find("%s") != std::string::npos && !fs::exists(given, error)) return inspectCubemap(given, given);
   const auto file = resolveScene(given);
   if (!file) return printError(file.error());
+  if (fs::exists(*file / "probes.json", error) || fs::exists(*file / "work/lock", error)) return inspectProbes(*file, given);
   if (fs::is_directory(*file, error)) return inspectCubemap(*file, given);
-  if (!fs::is_regular_file(*file, error)) return printError({given, "is no regular file", "give a .gltf, .glb, .png, .jpg, .hdr, .exr, .dds or .ktx2 file or a folder of cubemap faces"});
+  if (!fs::is_regular_file(*file, error)) return printError({given, "is no regular file", "give a .gltf, .glb, .png, .jpg, .hdr, .exr, .dds or .ktx2 file or a folder of cubemap faces or probes"});
   const Kind kind = kindOf(*file);
   if (kind == Kind::Cubemap) return inspectCubemap(*file, given);
   Progress progress;
@@ -97,8 +108,8 @@ Command addInspect(CLI::App& program) {
     std::string file, substance;
   };
   auto options = std::make_shared<Options>();
-  CLI::App* app = program.add_subcommand("inspect", "What a scene, picture or cubemap holds and what is wrong with it; what a substance is");
-  CLI::Option* file = app->add_option("FILE", options->file, "a scene (.gltf, .glb, a sample's name), a picture (.png, .jpg, .hdr, .exr) or a cubemap (.dds, .ktx2, .exr, a folder of faces, a pattern like face_%s.exr)")->type_name("");
+  CLI::App* app = program.add_subcommand("inspect", "What a scene, picture, cubemap or probe folder holds and what is wrong with it; what a substance is");
+  CLI::Option* file = app->add_option("FILE", options->file, "a scene (.gltf, .glb, a sample's name), a picture (.png, .jpg, .hdr, .exr) or a cubemap (.dds, .ktx2, .exr, a folder of faces, a pattern like face_%s.exr) or a folder of probes")->type_name("");
   CLI::Option* substance = app->add_option("--substance", options->substance, "a substance of the library: F0, IOR, code, colour")->type_name("NAME");
   file->excludes(substance);
   return {app, [options, app] {

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace cli {
@@ -43,6 +44,13 @@ std::size_t distance(std::string_view a, std::string_view b) {
   }
   return row[b.size()];
 }
+/// "42 s", "7 min", "2 h 05 min"
+std::string duration(double seconds) {
+  if (seconds < 100) return fmt::format("{:.0f} s", seconds);
+  const auto minutes = std::lround(seconds / 60);
+  return minutes < 100 ? fmt::format("{} min", minutes) : fmt::format("{} h {:02} min", minutes / 60, minutes % 60);
+}
+
 }  // namespace
 
 std::string didYouMean(std::string_view typed, const std::vector<std::string>& names) {
@@ -62,16 +70,18 @@ void Progress::stage(std::string text) {
   const std::lock_guard lock(mutex_);
   text_ = shown(text);
   done_ = total_ = 0;
+  secondsLeft_ = -1;
   began_ = Clock::now();
   nextPlain_ = began_ + std::chrono::seconds(1);
   ending_ = false;
   if (!thread_.joinable()) thread_ = std::thread([this] { watch(); });
 }
 
-void Progress::step(int done, int total) {
+void Progress::step(int done, int total, double secondsLeft) {
   const std::lock_guard lock(mutex_);
   done_ = done;
   total_ = total;
+  secondsLeft_ = secondsLeft;
 }
 
 void Progress::finish() {
@@ -93,13 +103,13 @@ void Progress::watch() {
 void Progress::show(Clock::time_point now) {
   const double seconds = std::chrono::duration<double>(now - began_).count();
   if (seconds < 1) return;
-  const std::string count = total_ > 0 ? fmt::format(" {}/{}", done_, total_) : std::string();
+  const std::string count = total_ > 0 ? fmt::format(" {}/{}", done_, total_) : std::string(), left = secondsLeft_ >= 0 ? ", about " + duration(secondsLeft_) + " left" : std::string();
   if (terminal_) {
-    fmt::print(stderr, "\r\x1b[K{}{} {:.0f} s", text_, count, seconds);
+    fmt::print(stderr, "\r\x1b[K{}{} {:.0f} s{}", text_, count, seconds, left);
     std::fflush(stderr);
     lineShown_ = true;
   } else if (now >= nextPlain_) {
-    fmt::print(stderr, "burnish: {}{} ({:.0f} s)\n", text_, count, seconds);
+    fmt::print(stderr, "burnish: {}{} ({:.0f} s{})\n", text_, count, seconds, left);
     nextPlain_ = now + std::chrono::seconds(10);
   }
 }

@@ -31,7 +31,7 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
   void stage(std::string text);    ///< what is being done from now on
-  void step(int done, int total);  ///< how far it is
+  void step(int done, int total, double secondsLeft = -1);  ///< how far it is; negative: how long the rest takes is not known
   void finish();                   ///< takes the line away; nothing is printed afterwards
 
  private:
@@ -44,6 +44,7 @@ class Progress {
   std::condition_variable changed_;
   std::string text_;
   int done_ = 0, total_ = 0;
+  double secondsLeft_ = -1;
   bool ending_ = false, lineShown_ = false;
   Clock::time_point began_ = Clock::now(), nextPlain_ = began_ + std::chrono::seconds(1);
   std::thread thread_;

@@ -1,5 +1,6 @@
 #include "scene_options.h"
 
+#include <burnish/probe.h>
 #include <fmt/format.h>
 
 #include <charconv>
@@ -185,7 +186,11 @@ CLI::Option* addChoice(CLI::App& app, const std::string& flag, std::vector<std::
 }
 
 void SceneOptions::addTo(CLI::App& app, bool required) {
-  app.add_option("SCENE", scene, "a .gltf or .glb file, or the name of a sample")->required(required)->type_name("");
+  addSceneTo(app, required);
+  addViewTo(app);
+}
+
+void SceneOptions::addViewTo(CLI::App& app) {
   CLI::Option* byName = app.add_option("--camera", camera, "a camera of the scene; without one: the first, else a view of everything")->type_name("NAME|INDEX");
   CLI::Option* from = addParsed(app, "--eye", "X,Y,Z", "where the eye is, metres", eye, parseVector, "a position: give X,Y,Z");
   CLI::Option* to = addParsed(app, "--target", "X,Y,Z", "what it looks at", target, parseVector, "a position: give X,Y,Z");
@@ -200,10 +205,8 @@ void SceneOptions::addTo(CLI::App& app, bool required) {
         return value && *value > 0 && *value < 180 ? value : std::nullopt;
       },
       "an angle above 0 and below 180 degrees");
-  CLI::Option* when = addParsed(app, "--time", "S", "plays the scene's animations to this time, seconds; each loops with its own length", time, parseNumber, "a time: give seconds");
-  app.add_option("--animation", animation, "with --time: this one alone; without: in the file's order each that moves nothing an earlier one moves")->type_name("NAME|INDEX")->needs(when);
   addParsed(app, "--size", "WxH", "pixels (1280x720)", size, parseSize, "a size: give WxH, each 1 to 16384, for example 1280x720");
-  app.add_option("--env", environment, "a lat-long picture (.hdr, .exr) that lights the scene")->type_name("FILE");
+  app.add_option("--probes", probes, "a folder of probes that burnish bake wrote: they light the scene")->type_name("DIR");
   app.add_option_function<std::string>(
          "--exposure",
          [this](const std::string& text) {
@@ -213,6 +216,14 @@ void SceneOptions::addTo(CLI::App& app, bool required) {
          },
          "EV100, or auto (the default): from this picture alone")
       ->type_name("EV|auto");
+  addChoice(app, "--tonemap", texts(burnish::toneMapNames()), [this](std::size_t i) { development.toneMap = burnish::ToneMap(i); }, "how radiance becomes colour");
+}
+
+void SceneOptions::addSceneTo(CLI::App& app, bool required) {
+  app.add_option("SCENE", scene, "a .gltf or .glb file, or the name of a sample")->required(required)->type_name("");
+  CLI::Option* when = addParsed(app, "--time", "S", "plays the scene's animations to this time, seconds; each loops with its own length", time, parseNumber, "a time: give seconds");
+  app.add_option("--animation", animation, "with --time: this one alone; without: in the file's order each that moves nothing an earlier one moves")->type_name("NAME|INDEX")->needs(when);
+  app.add_option("--env", environment, "a lat-long picture (.hdr, .exr) that lights the scene")->type_name("FILE");
   addChoice(app, "--quality", texts(burnish::presetNames()), [this](std::size_t i) { preset = std::string(burnish::presetNames()[i]); }, "a preset of rungs");
   app.add_option_function<std::vector<std::string>>(
          "--set",
@@ -233,7 +244,6 @@ void SceneOptions::addTo(CLI::App& app, bool required) {
       ->type_size(1)
       ->allow_extra_args(false)
       ->take_all();
-  addChoice(app, "--tonemap", texts(burnish::toneMapNames()), [this](std::size_t i) { development.toneMap = burnish::ToneMap(i); }, "how radiance becomes colour");
   addChoice(app, "--backend", {"egl", "osmesa", "glfw"}, [this](std::size_t i) { backend = burnish::Backend(i); }, "where OpenGL comes from");
   addParsed(
       app, "--threads", "N", "at most N threads of the software renderer and N picture decoders", threads,
@@ -269,6 +279,12 @@ Result<LoadedScene> loadScene(const SceneOptions& options, Progress& progress) {
   if (!options.environment.empty()) {
     progress.stage("loading " + options.environment);
     if (auto done = burnish::loadEnvironment(loaded.scene, options.environment, load, loaded.report); !done) return fail(done.error());
+  }
+  if (!options.probes.empty()) {
+    progress.stage("loading " + options.probes);
+    auto probes = burnish::readProbes(options.probes, loaded.report);
+    if (!probes) return fail(probes.error());
+    loaded.scene.probes = std::move(*probes);
   }
   if (auto done = playAnimations(loaded, options); !done) return fail(done.error());
   if (auto done = chooseView(loaded, options); !done) return fail(done.error());

@@ -11,7 +11,7 @@
 namespace cli {
 
 struct SceneOptions {
-  std::string scene, camera, environment;
+  std::string scene, camera, environment, probes;
   std::optional<glm::dvec3> eye, target, up;
   std::optional<double> fovDegrees;
   glm::ivec2 size{1280, 720};
@@ -26,8 +26,13 @@ struct SceneOptions {
   /// Adds SCENE and its options. Values are checked while parsing: what is no number, size or known name is a usage error.
   /// `required`: parsing fails without a SCENE.
   void addTo(CLI::App& app, bool required = true);
+  /// The same without what belongs to a picture: view, size, development, probes.
+  void addSceneTo(CLI::App& app, bool required = true);
   /// The preset with what --set changed, and the development.
   [[nodiscard]] burnish::Quality quality() const;
+
+ private:
+  void addViewTo(CLI::App& app);
 };
 
 struct LoadedScene {
@@ -37,7 +42,7 @@ struct LoadedScene {
   burnish::Report report;
 };
 
-/// Reads the scene and its environment and finds the view.
+/// Reads the scene, its environment and probes, and finds the view.
 burnish::Result<LoadedScene> loadScene(const SceneOptions& options, Progress& progress);
 
 /// Opens the backend's context; threads as asked for (Mesa's software renderer reads LP_NUM_THREADS when it starts).

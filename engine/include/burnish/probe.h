@@ -71,9 +71,28 @@ struct MergeReport {
 };
 BURNISH_API Result<MergeReport> mergeBounce(const std::filesystem::path& folder, Report& report);
 
-/// Reads a folder that bakeProbes() or writeProbes() wrote.
+/// Reads a folder that bakeProbes() or writeProbes() wrote. Hashes are checked; a damaged, cut off or lying file is one Error that names it and the place in it.
 BURNISH_API Result<ProbeSet> readProbes(const std::filesystem::path& folder, Report& report);
-/// Writes a set as a folder: complete or absent.
+/// Writes a set as a folder: complete or absent. The folder is made if it is missing; an old set in it stays until the new one is complete. Radiance is rounded to half floats over a power of two a
+/// probe, the rest is exact. Errors: what docs/probe_files.md does not allow, a folder that holds other things, one that a bake is writing to.
 BURNISH_API Result<void> writeProbes(const std::filesystem::path& folder, const ProbeSet& probes, Report& report);
+
+/// What a folder of probes holds and what is wrong with it.
+struct ProbeFolder {
+  struct File {
+    std::string name;
+    std::uint64_t bytes = 0;
+    double scale = 1;  ///< of a cube: what its half floats are multiplied by
+  };
+  ProbeSet set;                   ///< what could be read: probes whose file is damaged have no levels
+  std::string writer;             ///< empty: there is no set yet
+  std::vector<File> files;        ///< of the set
+  std::string options;            ///< JSON of the bake's options; empty: not baked by bakeProbes()
+  std::vector<BounceReport> bounces;  ///< of the bake that made the set; captured and reused are 0
+  int joined = 0;                 ///< bounces in the work folder
+  std::vector<std::string> wrong;     ///< one text each, with file and place
+};
+/// Looks at everything in a folder, the bake's work folder too. Error: there is no such folder, or it holds no probes.
+BURNISH_API Result<ProbeFolder> inspectProbes(const std::filesystem::path& folder);
 
 }  // namespace burnish
