@@ -116,9 +116,9 @@ Hash128 SceneHashes::look(const scene::Placed& placed) {
 }
 
 Hash128 SceneHashes::light(const Light& light) const {
-  const auto& [name, kind, node, color, intensity, range, innerCone, outerCone, enabled, castsShadow, sourceRadius, angularDiameter] = light;
+  const auto& [name, kind, node, color, intensity, range, innerCone, outerCone, enabled, castsShadow, standIn, sourceRadius, angularDiameter] = light;
   Hasher h;
-  h.value(kind), add(h, scene_.world(node)), add(h, color), h.value(intensity), h.value(range), h.value(innerCone), h.value(outerCone), h.value(enabled), h.value(castsShadow);
+  h.value(kind), add(h, scene_.world(node)), add(h, color), h.value(intensity), h.value(range), h.value(innerCone), h.value(outerCone), h.value(enabled), h.value(castsShadow), h.value(standIn);
   h.value(sourceRadius), h.value(angularDiameter);
   return h.finish();
 }
