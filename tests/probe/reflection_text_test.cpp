@@ -209,7 +209,8 @@ TEST_CASE("shares of places and sky sum to 1, and the sky has none inside", "[re
     const dvec3 p = within(random, dvec3(2.5));
     const f64::ProbeBlend b = blendAt(all, p);
     double sum = b.sky;
-    for (const double w : b.weight) {
+    for (int k = 0; k < PROBES_BLENDED; ++k) {
+      const double w = b.weight[k];
       CHECK((w >= 0 && w <= 1 + 1e-12));
       sum += w;
     }
