@@ -117,7 +117,6 @@ Result<void> uploadProbeRecords(FrameContext& c) {
 }
 
 void bindProbes(FrameContext& c) {
-  if (!plan::reads(c.plan, "probe records")) return;
   c.buffers.probes.bind(UNIT_PROBES);
   if (!c.probeLight || !plan::reads(c.plan, "probe cubes")) return;
   c.probeLight->cubes.bind(UNIT_PROBE_CUBES);

@@ -141,7 +141,7 @@ std::vector<std::string> shadeDefines(const Quality& q, const LightingVariant& l
           define("FOG", lighting.fog),
           define("FOG_AMBIENT", fogAmbient(q, lighting)),
           define("ORTHOGRAPHIC", lighting.orthographic),
-          define("PROBES", lighting.probes),
+          define("PROBES", int(lighting.places)),
           define("RUNG_AMBIENT", lighting.surroundings() ? int(q.ambient) : 0),
           define("RUNG_COMPENSATION", k.compensation),
           define("RUNG_DIFFUSE", k.diffuse),
@@ -152,7 +152,7 @@ std::vector<std::string> shadeDefines(const Quality& q, const LightingVariant& l
           define("RUNG_GEOMETRY", k.geometry),
           define("RUNG_LOBE", k.lobe),
           define("RUNG_NORMALIZATION", k.normalization),
-          define("RUNG_REFLECTION", lighting.probes && q.environmentSpecular != EnvironmentSpecular::None ? int(q.reflection) : 0),
+          define("RUNG_REFLECTION", lighting.places != Places::None && q.environmentSpecular != EnvironmentSpecular::None ? int(q.reflection) : 0),
           define("RUNG_SPECULAR", k.specular),
           define("RUNG_SPECULAR_OCCLUSION", lighting.occlusion && lighting.surroundings() ? int(q.specularOcclusion) : 0),
           define("SHADOW", shadows ? int(lighting.shadows.rung) : 0),
@@ -177,6 +177,7 @@ ProgramPlan lightingProgram(int bucket, const Quality& quality, const LightingVa
   p.defines.push_back(define("TONEMAP", std::max(lighting.inPlace, 0)));
   std::sort(p.defines.begin(), p.defines.end());
   p.name += namesOf(lighting.details);
+  if (lighting.places != Places::None) p.name += lighting.places == Places::One ? "+place" : "+places";
   if (lighting.orthographic) p.name += "+ortho";
   return p;
 }

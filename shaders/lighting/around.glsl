@@ -1,11 +1,18 @@
 // Light of the surroundings at a place: of captured places (shading/probes.h), and of the sky where they leave something to it. Pre-exposed.
-// The includer defines, where ENVIRONMENT is 1, skyAmbientAt(normal) and lastLevel() (of the sky's cube), and where PROBES is 1, probesNear(p, out list): records that may have a share at p,
-// smaller boxes before larger ones, -1 where the list ends.
-// Definitions: ENVIRONMENT (1: the sky gives light), PROBES (1: captured places do), RUNG_AMBIENT, RUNG_ENVIRONMENT_SPECULAR, RUNG_REFLECTION, ENVIRONMENT_UNIT.
+// The includer defines, where ENVIRONMENT is 1, skyAmbientAt(normal) and lastLevel() (of the sky's cube), and where PROBES is not 0, probesNear(p, out list): how many records may
+// have a share at p (MAX_TILE_PROBES at most), and which, smaller boxes before larger ones. A software renderer saves the turns that a loop does not take, but
+// nothing of an if.
+// Definitions: ENVIRONMENT (1: the sky gives light), PROBES (1: one captured place may, 2: several), RUNG_AMBIENT, RUNG_ENVIRONMENT_SPECULAR, RUNG_REFLECTION, ENVIRONMENT_UNIT.
 #if ENVIRONMENT || PROBES
 #define SURROUNDINGS 1
 #else
 #define SURROUNDINGS 0
+#endif
+// How many are looked at.
+#if PROBES == 1
+#define PLACES(at) 1
+#else
+#define PLACES(at) at.count
 #endif
 #if ENVIRONMENT && RUNG_ENVIRONMENT_SPECULAR != ENVIRONMENT_SPECULAR_NONE
 layout(binding = ENVIRONMENT_UNIT) uniform samplerCube environmentCube;
@@ -21,7 +28,8 @@ layout(binding = UNIT_PROBE_CUBES) uniform samplerCubeArray probeCubes;
 struct Place {
   vec3 p;
 #if PROBES
-  int probe[MAX_TILE_PROBES];
+  ivec4 probe;
+  int count;
   ProbeBlend blend;
 #endif
 };
@@ -37,12 +45,11 @@ Place placeAt(vec3 p) {
   Place at;
   at.p = p;
 #if PROBES
-  probesNear(p, at.probe);
+  at.count = probesNear(p, at.probe);
   at.blend = beginBlend();
   // A box is larger by what p may be rounded by.
   float slack = BURNISH_PROBE_SLACK * sqrt(dot(p, p));
-  for (int i = 0; i < MAX_TILE_PROBES; ++i) {
-    if (at.probe[i] < 0) break;
+  for (int i = 0; i < PLACES(at); ++i) {
     int record = at.probe[i] * PROBE_TEXELS;
     vec4 extent = texelFetch(probeRecords, record + 3);
     addToBlend(at.blend, i, inBox(record, p), extent.xyz + slack, texelFetch(probeRecords, record + 4).xyz, extent.w);
@@ -61,6 +68,15 @@ float skyAt(Place at) {
 #endif
 }
 
+#if PROBES
+// Irradiance over pi of one captured place.
+vec3 probeAmbient(int record, vec3 p, vec3 n) {
+  vec3 c[9];
+  for (int k = 0; k < 9; ++k) c[k] = texelFetch(probeRecords, record + 6 + k).rgb;
+  return irradianceSh(n, c[0], c[1], c[2], c[3], c[4], c[5], c[6], c[7], c[8], RUNG_AMBIENT);
+}
+#endif
+
 // Irradiance over pi for the normal n.
 vec3 ambientAt(Place at, vec3 n) {
   vec3 sum = vec3(0.0);
@@ -68,12 +84,7 @@ vec3 ambientAt(Place at, vec3 n) {
 #if ENVIRONMENT
   if (at.blend.sky > 0.0) sum = skyAmbientAt(n) * at.blend.sky;
 #endif
-  for (int i = 0; i < MAX_TILE_PROBES; ++i) {
-    if (at.blend.weight[i] <= 0.0) continue;
-    vec3 c[9];
-    for (int k = 0; k < 9; ++k) c[k] = texelFetch(probeRecords, at.probe[i] * PROBE_TEXELS + 6 + k).rgb;
-    sum += irradianceSh(n, c[0], c[1], c[2], c[3], c[4], c[5], c[6], c[7], c[8], RUNG_AMBIENT) * at.blend.weight[i];
-  }
+  for (int i = 0; i < PLACES(at); ++i) sum += probeAmbient(at.probe[i] * PROBE_TEXELS, at.p, n) * at.blend.weight[i];
 #elif ENVIRONMENT
   sum = skyAmbientAt(n);
 #endif
@@ -106,8 +117,7 @@ vec3 radianceAt(Place at, vec3 d, float roughness) {
 #if ENVIRONMENT
   if (at.blend.sky > 0.0) sum = textureLod(environmentCube, d, environmentLevel(roughness, lastLevel())).rgb * (frame.background.w * at.blend.sky);
 #endif
-  for (int i = 0; i < MAX_TILE_PROBES; ++i)
-    if (at.blend.weight[i] > 0.0) sum += probeRadiance(at.probe[i] * PROBE_TEXELS, at.p, d, roughness) * at.blend.weight[i];
+  for (int i = 0; i < PLACES(at); ++i) sum += probeRadiance(at.probe[i] * PROBE_TEXELS, at.p, d, roughness) * at.blend.weight[i];
 #elif ENVIRONMENT
   sum = textureLod(environmentCube, d, environmentLevel(roughness, lastLevel())).rgb * frame.background.w;
 #endif

@@ -176,7 +176,7 @@ TEST_CASE("H3: at every roughness the same reflected point", "[reflection]") {
           if (picture.at(x, y).y > 0.98 * most) sum += glm::dvec2(x + 0.5, y + 0.5), weight += 1;
       const double off = glm::length(sum / weight - truth);
       std::cout << fmt::format("  {}, roughness {}: the brightest pixels lie {:.2f} pixels from the mirrored light\n", rung == Reflection::Box ? "box" : "box-rough", roughness, off);
-      CHECK(off < 2);  // the light itself is 12 pixels wide
+      CHECK(off < 2);  // the light itself is 10 pixels wide
     }
 }
 
