@@ -153,6 +153,20 @@ TEST_CASE("limit: vertex colours, and instances without a material") {
   CHECK(report.warnings()[1].what.find("2 of 4 vertex colours") != std::string::npos);
 }
 
+TEST_CASE("limit: a material on meshes with colours and without is darkened once") {
+  Scene scene;
+  const Id<Instance> colored = wall(scene, Material{}, true);
+  Instance plain = *scene.instances.get(colored);
+  plain.mesh = scene.meshes.add(quad({0, 0, 0}, {1, 0, 0}, {0, 1, 0}));
+  const Id<Instance> bare = scene.instances.add(plain);
+  Report report;
+  const Scene darker = probe::limited(scene, 0.98, {}, report);
+  const double cap = (0.98 - 0.04 - 0.96 / 21) / (1 - 0.04 - 0.96 / 21);
+  CHECK(double(materialOf(darker, bare).albedo.x) == Approx(cap).epsilon(1e-6));
+  CHECK(darker.meshes.get(darker.instances.get(colored)->mesh)->colors[0].x == 1);
+  CHECK(report.warnings().size() == 1);
+}
+
 TEST_CASE("limit: metalness of a map of its own, and glass: by what bears least") {
   Scene scene;
   Texture map, metal;
