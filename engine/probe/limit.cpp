@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <set>
 #include <tuple>
 #include <vector>
 
@@ -93,7 +94,7 @@ class Limiter {
     const Range range = rangeOf(plain);
     if (bare.empty() || range.cap >= 1) return;
     Material m = plain;
-    m.albedo = glm::vec3(float(range.cap));
+    m.albedo = glm::vec3(below(range.cap));
     tell(nameOf(nullptr), {limit_.reflected(range.base, range.metalness, 1), "everywhere"});
     const Id<Material> id = scene_.materials.add(m);
     for (Id<Instance> i : bare) scene_.instances.edit(i)->material = id;
@@ -141,32 +142,38 @@ class Limiter {
     if (most <= range.cap) return;
     found = {limit_.reflected(range.base, range.metalness, std::min(most, 1.0)), "everywhere"};
     bool plain = false;
-    std::size_t vertices = 0, all = 0;
+    std::set<std::uint32_t> colored;  // meshes
     scene_.instances.each([&](Id<Instance>, const Instance& i) {
       const Mesh* mesh = scene_.meshes.get(i.mesh);
       if (!i.visible || i.material != id || !mesh) return;
-      if (!m.useVertexColor || mesh->colors.empty()) {
+      if (m.useVertexColor && !mesh->colors.empty())
+        colored.insert(i.mesh.index);
+      else
         plain = true;
-        return;
-      }
-      limitColors(i.mesh, range.cap, factor, vertices);
-      all += mesh->colors.size();
     });
-    if (plain) scene_.materials.edit(id)->albedo = glm::min(m.albedo, glm::vec3(float(range.cap)));
+    glm::vec3 left = m.albedo;
+    if (plain) scene_.materials.edit(id)->albedo = left = glm::min(left, glm::vec3(below(range.cap)));
+    std::size_t vertices = 0, all = 0;
+    for (const std::uint32_t index : colored) {
+      const Id<Mesh> mesh = scene_.meshes.at(index);
+      all += scene_.meshes.get(mesh)->colors.size();
+      vertices += limitColors(mesh, range.cap, glm::clamp(glm::dvec3(left), 0.0, 1.0));
+    }
     if (vertices > 0) found.where = fmt::format("{} of {} vertex colours{}", vertices, all, plain ? " and everywhere else" : "");
   }
-  void limitColors(Id<Mesh> id, double cap, const glm::dvec3& factor, std::size_t& changed) {
+  /// How many were too bright.
+  std::size_t limitColors(Id<Mesh> id, double cap, const glm::dvec3& factor) {
     const std::vector<glm::vec4>& colors = scene_.meshes.get(id)->colors;
     const auto bright = [&](const glm::vec4& c) {
       const glm::dvec3 a = glm::dvec3(c) * factor;
       return std::max({a.x, a.y, a.z}) > cap;
     };
     const auto count = std::size_t(std::count_if(colors.begin(), colors.end(), bright));
-    changed += count;
-    if (count == 0) return;
+    if (count == 0) return 0;
     for (glm::vec4& c : scene_.meshes.edit(id)->colors)
       for (int k = 0; k < 3; ++k)
         if (double(c[k]) * factor[k] > cap) c[k] = below(cap / factor[k]);
+    return count;
   }
   /// A float that is not above.
   static float below(double x) {

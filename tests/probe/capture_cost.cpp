@@ -42,7 +42,7 @@ dvec3 pointOf(int i) { return {0.1 + 0.06 * i, 0.2, 0.3}; }
 
 }  // namespace
 
-TEST_CASE("capture: what a point costs", "[.][cost]") {
+TEST_CASE("capture: what a point costs", "[.][cost][sweep]") {
   for (const bool sun : {false, true}) {
     const Scene scene = furnished(sun);
     Observatory o(scene);

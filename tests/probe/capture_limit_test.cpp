@@ -88,6 +88,9 @@ TEST_CASE("limit: rungs decide what counts") {
   lambert.diffuse = Diffuse::Lambert;
   CHECK(albedo(lambert) == Approx(0.98 - 0.04 - 0.96 / 21).epsilon(1e-6));
   CHECK(albedo({}) == Approx((0.98 - 0.04 - 0.96 / 21) / (1 - 0.04 - 0.96 / 21)).epsilon(1e-6));
+  scene.materials.edit(scene.instances.get(id)->material)->substance = 1;
+  CHECK(albedo({}) == Approx((0.98 - 1 / 21.0) / (1 - 1 / 21.0)).epsilon(1e-6));
+  std::cout << fmt::format("  albedo limit 0.98: white plastic {:.4f}, white metal {:.4f}\n", (0.98 - 0.04 - 0.96 / 21) / (1 - 0.04 - 0.96 / 21), albedo({}));
 }
 
 TEST_CASE("limit: texel by texel, on a copy") {
@@ -148,6 +151,43 @@ TEST_CASE("limit: vertex colours, and instances without a material") {
   CHECK(double(materialOf(darker, without).albedo.x) == Approx(cap).epsilon(1e-6));
   REQUIRE(report.warnings().size() == 2);
   CHECK(report.warnings()[1].what.find("2 of 4 vertex colours") != std::string::npos);
+}
+
+TEST_CASE("limit: a material on meshes with colours and without is darkened once") {
+  Scene scene;
+  const Id<Instance> colored = wall(scene, Material{}, true);
+  Instance plain = *scene.instances.get(colored);
+  plain.mesh = scene.meshes.add(quad({0, 0, 0}, {1, 0, 0}, {0, 1, 0}));
+  const Id<Instance> bare = scene.instances.add(plain);
+  Report report;
+  const Scene darker = probe::limited(scene, 0.98, {}, report);
+  const double cap = (0.98 - 0.04 - 0.96 / 21) / (1 - 0.04 - 0.96 / 21);
+  CHECK(double(materialOf(darker, bare).albedo.x) == Approx(cap).epsilon(1e-6));
+  CHECK(darker.meshes.get(darker.instances.get(colored)->mesh)->colors[0].x == 1);
+  CHECK(report.warnings().size() == 1);
+}
+
+TEST_CASE("limit: metalness of a map of its own, and glass: by what bears least") {
+  Scene scene;
+  Texture map, metal;
+  map.image = makeImage(1, 1, 4, PixelType::U8);
+  std::fill_n(map.image.u8(), 3, std::uint8_t(255));  // alpha 0 would be a gem, but does not count
+  metal.kind = MapKind::MetalRough;
+  metal.image = makeImage(1, 1, 4, PixelType::U8);
+  Material apart, glass;
+  apart.mapA = scene.textures.add(map);
+  apart.metalRoughMap = scene.textures.add(metal);
+  apart.metalness = 1;
+  glass.transmission = 1;
+  glass.ior = 3;  // F0 0.25
+  const Id<Instance> a = wall(scene, apart), b = wall(scene, glass);
+  Report report;
+  const Scene darker = probe::limited(scene, 0.98, {}, report);
+  CHECK(report.warnings().size() == 2);
+  const auto albedo = double(image::srgbToLinearTable()[*darker.textures.get(materialOf(darker, a).mapA)->image.u8()]);
+  for (const double metalness : {0.0, 0.01, 0.3, 0.7, 1.0}) CHECK(reflectedInAll(albedo, metalness > 0 ? 0.4 + 0.6 * metalness : 1 / 3.0, 0.1) < 0.982);
+  const double f0 = 0.25, s = f0 + (1 - f0) / 21;
+  CHECK(s + double(materialOf(darker, b).albedo.x) * (1 - s) == Approx(0.98).epsilon(1e-6));
 }
 
 TEST_CASE("limit: a limit out of range is held") {

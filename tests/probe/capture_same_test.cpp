@@ -96,3 +96,45 @@ TEST_CASE("capture: the same bytes as six views of a fresh renderer, whatever is
   Observatory again(std::move(filmed), demanding());
   CHECK(again.radiance(eye, 32).texels == before.texels);
 }
+
+TEST_CASE("capture: lit by the probes that it has, and by no others") {
+  Scene scene;
+  Material wall;
+  wall.albedo = vec3(0.5f);
+  addRoom(scene, vec3(-1), vec3(1), wall);
+  scene.environment.color = vec3(9);
+  ProbeSet places;
+  places.reflections.push_back(probeIn(vec3(-1), vec3(1), {0.2, 0.1, 0}));
+  BakeOptions options;
+  options.size = 16;
+  const auto lit = [&](double light) {
+    probe::PointLight one{probe::blackLight(places, options).reflections[0].radiance, {}};
+    for (CubeLevel& level : one.radiance.levels) std::fill(level.texels.begin(), level.texels.end(), float(light));
+    for (double& c : one.irradiance[0]) c = light;
+    return probe::withLight(places, std::vector{one});
+  };
+  Observatory o(scene);
+  const dvec3 eye(-0.3, 0.2, 0.4);
+  // Without probes the sky gets in; black ones keep it out.
+  const CubeLevel sky = o.radiance(eye, 16);
+  CHECK(texel(sky, 0, 8, 8).x > 3);
+  o.capture->setProbes(probe::blackLight(places, options));
+  for (const float v : o.radiance(eye, 16).texels) REQUIRE(v == 0);
+  std::vector<CubeLevel> seen;
+  for (const double light : {1.0, 2.0, 1.0}) {
+    o.capture->setProbes(lit(light));
+    seen.push_back(o.radiance(eye, 16));
+  }
+  CHECK(seen[0].texels == seen[2].texels);
+  for (std::size_t i = 0; i < seen[0].texels.size(); ++i) REQUIRE(double(seen[1].texels[i]) == Approx(2 * double(seen[0].texels[i])).epsilon(1e-5));
+  // As the scene with those probes, through the public interface.
+  Stage stage;
+  Scene with = scene;
+  with.probes = lit(2);
+  with.environment.background = true;
+  RenderRequest request;
+  request.output = Output::Linear;
+  const Picture p = stage.draw(with, probe::faceViews(eye, probe::captureNear(scene), 16), {48, 32}, probe::captureQuality({}), request);
+  std::size_t mended = 0;
+  CHECK(probe::facesOf(p.image, 16, mended).texels == seen[1].texels);
+}
