@@ -33,14 +33,15 @@ glm::dvec3 shade(const OracleSurface& surface, std::span<const OracleLight> ligh
 }
 
 // The lobe takes nodes where its half vectors are, what is smooth takes nodes over the hemisphere. Quadrature is done in the frame of a normal +z and a view in the xz plane.
-DirectionalAlbedo directionalAlbedo(const OracleSurface& surface, const shading::Rungs& rungs, const Resolution& resolution) {
+DirectionalAlbedo directionalAlbedo(const OracleSurface& surface, const shading::Rungs& rungs, const Resolution& resolution, const LobeEnergy* known) {
   const Rules rules(resolution);
-  const auto energy = energyOf(rungs, surfaceOf(surface, nullptr).alpha);
+  const auto found = known ? nullptr : energyOf(rungs, surfaceOf(surface, nullptr).alpha);
+  const LobeEnergy* energy = known && needsAlbedoTable(rungs) ? known : found.get();
   const double nov = std::clamp(glm::dot(surface.n, surface.v), 1e-9, 1.0);
   OracleSurface local = surface;
   local.n = {0, 0, 1};
   local.v = directionAt(nov);
-  const f64::Surface m = surfaceOf(local, energy.get());
+  const f64::Surface m = surfaceOf(local, energy);
   const auto lobe = [&](const glm::dvec3& l) {
     const f64::Angles a = f64::anglesOf(m, l);
     return f64::fresnelRung(m.f0, m.eta, m.k, a.loh, rungs.fresnel) * f64::specularRung(m, a, rungs);

@@ -29,10 +29,10 @@ shading::f64::Surface surfaceOf(const OracleSurface& surface, const LobeEnergy* 
 /// Reflected radiance toward v under the lights.
 glm::dvec3 shade(const OracleSurface& surface, std::span<const OracleLight> lights, const shading::Rungs& rungs);
 
-/// ∫ of the reflected radiance under unit radiance from everywhere: what a white furnace shows.
+/// ∫ of the reflected radiance under unit radiance from everywhere: what a white furnace shows. `known`: the energy of these rungs and this alpha, for callers who ask often.
 struct DirectionalAlbedo {
   glm::dvec3 diffuse{0}, specular{0};  ///< specular: multiple scattering included
 };
-DirectionalAlbedo directionalAlbedo(const OracleSurface& surface, const shading::Rungs& rungs, const Resolution& resolution = {});
+DirectionalAlbedo directionalAlbedo(const OracleSurface& surface, const shading::Rungs& rungs, const Resolution& resolution = {}, const LobeEnergy* known = nullptr);
 
 }  // namespace burnish::reference

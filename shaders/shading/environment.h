@@ -58,10 +58,12 @@ FN real ambientShare(Surface m, int rung, Rungs k) {
   return unitClamp(R(1.0) - environmentReflectance(m, m.dielectric, rung, k.fresnel));
 }
 
-// What diffuse has to reflect ambient light with: its albedo, or that of a rough surface toward the eye.
+// What diffuse has to reflect ambient light with: its albedo, or that of a rough surface toward the eye. The rung that is rough everywhere takes its sigma from alpha, as toward lights.
 FN vec3 ambientAlbedo(Surface m, Rungs k) {
-  if (k.roughDiffuse == 0) return m.diffuse;
-  return vec3(orenNayarEnergyAlbedo(m.nov, m.sigma, m.diffuse.x), orenNayarEnergyAlbedo(m.nov, m.sigma, m.diffuse.y), orenNayarEnergyAlbedo(m.nov, m.sigma, m.diffuse.z));
+  bool rough = k.diffuse == DIFFUSE_OREN_NAYAR_ENERGY;
+  if (k.roughDiffuse == 0 && !rough) return m.diffuse;
+  real sigma = rough && (k.roughDiffuse == 0 || m.sigma <= R(0.0)) ? sigmaFromAlpha(m.alpha) : m.sigma;
+  return vec3(orenNayarEnergyAlbedo(m.nov, sigma, m.diffuse.x), orenNayarEnergyAlbedo(m.nov, sigma, m.diffuse.y), orenNayarEnergyAlbedo(m.nov, sigma, m.diffuse.z));
 }
 
 // Specular occlusion from ambient occlusion, by the rung: none, the ambient occlusion itself, or Lagarde and de Rousiers 2014, "Moving Frostbite to Physically Based

@@ -78,4 +78,51 @@ inline void addRoom(Scene& scene, vec3 low, vec3 high, const std::array<Material
 }
 inline void addRoom(Scene& scene, vec3 low, vec3 high, const Material& material) { addRoom(scene, low, high, {material, material, material, material, material, material}); }
 
+
+/// A probe whose box is a room.
+inline ReflectionProbe probeIn(vec3 low, vec3 high, dvec3 capture) {
+  ReflectionProbe p;
+  p.center = (dvec3(low) + dvec3(high)) * 0.5;
+  p.halfSize = (dvec3(high) - dvec3(low)) * 0.5;
+  p.capture = capture;
+  return p;
+}
+
+/// A bake in memory: bounce after bounce, each lit by the one before.
+struct Bake {
+  ProbeSet set;                       ///< as the last bounce left it
+  std::vector<BounceReport> bounces;
+  std::vector<probe::PointLight> lights;
+  std::string error;
+
+  /// One more bounce; false: it was the last.
+  bool bounce(Observatory& o, const ProbeSet& places, const BakeOptions& options) {
+    if (!probe::wantsMore(bounces, options)) return false;
+    o.capture->setProbes(bounces.empty() ? probe::blackLight(places, options) : set);
+    std::vector<IrradianceSh> before, now;
+    for (const probe::PointLight& l : lights) before.push_back(l.irradiance);
+    probe::PointTime time;
+    for (int i = 0; i < probe::captureCount(places); ++i) {
+      auto light = probe::capturePoint(*o.capture, places, i, options, time);
+      if (!light) FAIL("capture: " << light.error().message());
+      now.push_back(light->irradiance);
+      if (std::size_t(i) < lights.size())
+        lights[std::size_t(i)] = std::move(*light);
+      else
+        lights.push_back(std::move(*light));
+    }
+    auto judged = probe::judge(bounces, probe::changeOf(before, now));
+    if (!judged) {
+      error = judged.error().message();
+      return false;
+    }
+    bounces.push_back(*judged);
+    set = probe::withLight(places, lights);
+    return true;
+  }
+  void run(Observatory& o, const ProbeSet& places, const BakeOptions& options) {
+    while (bounce(o, places, options)) {}
+  }
+};
+
 }  // namespace burnish::test
