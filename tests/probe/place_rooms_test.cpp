@@ -354,6 +354,20 @@ TEST_CASE("scenes that are broken, empty, endless or flat end soon and quietly",
   }
 }
 
+TEST_CASE("more triangles than rays can take are an error before they are made", "[place][rooms]") {
+  Scene s;
+  Mesh m = quad({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+  const std::vector<std::uint32_t> once = m.indices;
+  for (int i = 0; i < 100000; ++i) m.indices.insert(m.indices.end(), once.begin(), once.end());
+  Instance instance;
+  instance.mesh = s.meshes.add(std::move(m));
+  for (int i = 0; i < 151; ++i) s.instances.add(instance);
+  Report report;
+  const auto none = placeProbes(s, {}, report);
+  REQUIRE_FALSE(none);
+  CHECK(none.error().message().find("at most 30000000") != std::string::npos);
+}
+
 TEST_CASE("the fps sample has its four rooms", "[place][fps]") {
   Report report;
   auto scene = loadScene(std::filesystem::path(BURNISH_BINARY_DIR) / "share/burnish/samples/fps/fps.gltf", {}, report);
