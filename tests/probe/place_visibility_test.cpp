@@ -180,6 +180,28 @@ TEST_CASE("a lattice is filled the same way by any number of threads", "[place][
   CHECK(std::is_sorted(shares.begin(), shares.end()));
 }
 
+TEST_CASE("what moves out of sight changes no bit of a point's distances", "[place][visibility]") {
+  std::vector<AmbientGrid> grids;
+  for (int at = 0; at < 6; ++at) {
+    Scene s;
+    // Rays from the middle along the diagonals of its walls meet either of two triangles.
+    place(s, box({-0.73f, -0.73f, -0.73f}, {0.73f, 0.73f, 0.73f}, true), material(), translation({0.1, 1.37, 0.3}));
+    // Behind the walls; the land grows with it.
+    for (int i = 0; i < 40; ++i) place(s, sphere(0.2f, 6, 12), material(), translation({8 + std::fmod(i * 1.37 + at * 3.1, 9.0), std::fmod(i * 0.77, 5.0), -9 + std::fmod(i * 2.11 + at, 18.0)}));
+    place(s, box({-20, -1, -20}, {20 + float(at) * 0.3f, -0.5f, 20}), material());
+    AmbientGrid g;
+    g.origin = dvec3(0.1, 1.37, 0.3) - 0.5;
+    g.spacing = dvec3(0.25);
+    g.counts = glm::ivec3(5);
+    REQUIRE(probe::fillPoints(geometryOf(s), g, 2));
+    grids.push_back(g);
+  }
+  int differ = 0;
+  for (const AmbientGrid& g : grids)
+    for (std::size_t i = 0; i < g.points.size(); ++i) differ += g.points[i].valid != grids[0].points[i].valid || g.points[i].distances != grids[0].points[i].distances;
+  CHECK(differ == 0);
+}
+
 TEST_CASE("lattices that are none, or too large, are errors", "[place][visibility]") {
   const Scene s = furnished(dvec3(0));
   const probe::Geometry g = geometryOf(s);
