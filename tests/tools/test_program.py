@@ -692,9 +692,9 @@ class Bake(Program):
         return json.loads(self.bake(name, *more, "--json", "-").stdout)
 
     def content(self, name):
-        """Names and bytes of all that a folder holds, but for locks."""
+        """Names and bytes of all that a folder holds."""
         root = self.out / name
-        return {str(p.relative_to(root)): p.read_bytes() for p in sorted(root.rglob("*")) if p.is_file() and p.name not in ("lock", "state_lock")}
+        return {str(p.relative_to(root)): p.read_bytes() for p in sorted(root.rglob("*")) if p.is_file()}
 
     def assertSame(self, a, b):
         self.assertEqual(sorted(a), sorted(b))
