@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <new>
+
 #include "scene/transparency.h"
 #include "scene/visibility.h"
 
@@ -38,7 +40,7 @@ reference::TriangleMesh placed(const scene::Placed& p, const Geometry::Surface& 
 
 }  // namespace
 
-Result<Geometry> Geometry::create(const Scene& scene, Report* report) {
+Result<Geometry> Geometry::create(const Scene& scene, Report* report) try {
   scene::Derived derived;
   derived.update(scene, report);
   std::size_t triangles = 0;
@@ -55,6 +57,8 @@ Result<Geometry> Geometry::create(const Scene& scene, Report* report) {
   auto rays = reference::RayScene::create(meshes);
   if (!rays) return fail(rays.error());
   return Geometry{std::move(*rays), std::move(surfaces)};
+} catch (const std::bad_alloc&) {
+  return fail("probes", "memory runs out", "hide what does not matter to the light");
 }
 
 }  // namespace burnish::probe

@@ -8,7 +8,7 @@ namespace burnish::probe {
 namespace {
 
 /// Spacings between the outermost points of a row whose points have kInset to both walls.
-double spacingsIn(int points) { return points - 1 + 2 * kInset; }
+double spacingsIn(double points) { return points - 1 + 2 * kInset; }
 
 /// What a row leaves between walls and the points next to them, in spacings; a point that touches a wall is no use.
 double gaps(const Row& row, const std::vector<Span>& spans) {
@@ -25,25 +25,32 @@ double gaps(const Row& row, const std::vector<Span>& spans) {
 
 }  // namespace
 
-Row rowOver(const std::vector<Span>& spans, double most) {
+Row rowOver(const std::vector<Span>& all, double most) {
   constexpr double kClosest = 0.75;  // of the spacing that is asked for
+  constexpr std::size_t kTried = 12, kJudged = 64;
+  // The largest walls say where points may go; the rest is covered as it comes.
+  std::vector<Span> spans = all;
+  std::stable_sort(spans.begin(), spans.end(), [](const Span& a, const Span& b) { return a.weight > b.weight; });
+  const std::vector<Span> tried(spans.begin(), spans.begin() + std::ptrdiff_t(std::min(kTried, spans.size())));
   double low = std::numeric_limits<double>::infinity(), high = -low;
   std::vector<double> spacings{most};
   for (const Span& a : spans) {
     low = std::min(low, a.low);
     high = std::max(high, a.high);
-    for (const Span& b : spans) {
+  }
+  for (const Span& a : tried)
+    for (const Span& b : tried) {
       const double between = b.high - a.low;
       if (!(between > 0)) continue;
-      const int points = std::max(2, int(std::ceil(between / most - 2 * kInset - 1e-9)) + 1);
-      for (const int n : {points, points + 1}) spacings.push_back(between / spacingsIn(n));
+      const double points = std::max(2.0, std::ceil(between / most - 2 * kInset - 1e-9) + 1);
+      for (const double n : {points, points + 1}) spacings.push_back(between / spacingsIn(n));
     }
-  }
+  if (spans.size() > kJudged) spans.resize(kJudged);
   Row best;
   double least = std::numeric_limits<double>::infinity();
   for (const double spacing : spacings) {
     if (!(spacing <= most * (1 + 1e-9)) || spacing < most * kClosest) continue;
-    for (const Span& s : spans)
+    for (const Span& s : tried)
       for (const double anchor : {s.low + kInset * spacing, s.high - kInset * spacing}) {
         Row row{anchor, spacing, 1};
         const double cost = gaps(row, spans);
@@ -54,11 +61,11 @@ Row rowOver(const std::vector<Span>& spans, double most) {
   }
   // From the first point between the outermost walls to the last one; one more where more than half a cell would be bare.
   const auto steps = [&](double place) { return (place - best.first) / best.spacing; };
-  int from = int(std::ceil(steps(low) - 1e-9)), to = int(std::floor(steps(high) + 1e-9));
+  double from = std::ceil(steps(low) - 1e-9), to = std::floor(steps(high) + 1e-9);
   if (from - steps(low) > 0.5) --from;
   if (steps(high) - to > 0.5) ++to;
   best.first += from * best.spacing;
-  best.count = std::max(1, to - from + 1);
+  best.count = int(std::clamp(to - from + 1, 1.0, 1e9));
   return best;
 }
 
@@ -79,7 +86,7 @@ AmbientGrid latticeOver(const std::vector<Room>& rooms, const glm::dmat3& axes, 
   grid.name = "rooms";
   grid.axes = axes;
   wanted = 0;
-  for (glm::dvec3 limit = spacing > 0 ? glm::dvec3(spacing) : shortest / spacingsIn(kAcross);; limit *= 1.02) {
+  for (glm::dvec3 limit = spacing > 0 ? glm::dvec3(spacing) : shortest / spacingsIn(kAcross);;) {
     glm::dvec3 first(0);
     for (int k = 0; k < 3; ++k) {
       const Row row = rowOver(spans[k], limit[k]);
@@ -91,6 +98,7 @@ AmbientGrid latticeOver(const std::vector<Room>& rooms, const glm::dmat3& axes, 
     const double points = double(grid.counts.x) * grid.counts.y * grid.counts.z;
     if (wanted == 0) wanted = points;
     if (points <= std::max(most, 8)) return grid;
+    limit *= std::max(1.02, 0.9 * std::cbrt(points / most));
   }
 }
 

@@ -3,16 +3,9 @@
 #include <functional>
 #include <vector>
 
-#include "probe/rooms_grow.h"
+#include "probe/rooms_fit.h"
 
 namespace burnish::probe {
-
-struct Room {
-  glm::dvec3 center{0}, halfSize{0};  ///< world, metres
-  glm::dmat3 axes{1};
-  glm::dvec3 capture{0};              ///< a point in the box with much room around it, near the box's middle
-  double doors = 0;                   ///< metres: the depth of the deepest opening that leads out of the box, 0 without any
-};
 
 struct Rooms {
   std::vector<Room> rooms;

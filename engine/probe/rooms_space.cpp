@@ -57,29 +57,6 @@ class Lines {
   Space& space_;
 };
 
-struct Sight {
-  int sky = 0, fronts = 0, backs = 0, others = 0;
-  [[nodiscard]] bool inRoom() const { return backs <= fronts && double(sky) <= kMostSky * (sky + fronts + backs + others); }
-};
-
-Sight lookFrom(const Geometry& geometry, glm::dvec3 point, WallAngles& walls) {
-  Sight s;
-  WallAngles seen;
-  for (int i = 0; i < kSightSize * kSightSize; ++i) {
-    const Ray ray{point, shading::f64::distanceDirection(i % kSightSize + 0.5, double(i / kSightSize) + 0.5, kSightSize), 0, std::numeric_limits<double>::infinity(), kWalls};  // NOLINT(bugprone-integer-division)
-    const Hit hit = geometry.rays.nearest(ray);
-    if (!hit)
-      ++s.sky;
-    else if (geometry.surfaces[hit.mesh].twoSided)
-      ++s.others;
-    else
-      ++(seesBack(geometry, ray, hit) ? s.backs : s.fronts);
-    if (hit) seen.add(hit.normal);
-  }
-  if (s.inRoom()) walls.add(seen);
-  return s;
-}
-
 /// Nothing above or nothing below: it is no room, and need not look around.
 bool roofed(const Geometry& geometry, glm::dvec3 point) {
   return geometry.rays.occluded(Ray{point, {0, 1, 0}, 0, std::numeric_limits<double>::infinity(), kWalls}) &&
@@ -87,6 +64,26 @@ bool roofed(const Geometry& geometry, glm::dvec3 point) {
 }
 
 }  // namespace
+
+bool Sight::inRoom() const { return backs <= fronts && double(sky) <= kMostSky * (sky + fronts + backs + others); }
+
+Sight lookFrom(const Geometry& geometry, glm::dvec3 point, WallAngles& walls) {
+  Sight s;
+  WallAngles seen;
+  for (int i = 0; i < kSightSize * kSightSize; ++i) {
+    const Ray ray{point, shading::f64::distanceDirection(i % kSightSize + 0.5, double(i / kSightSize) + 0.5, kSightSize), 0, std::numeric_limits<double>::infinity(), kWalls};  // NOLINT(bugprone-integer-division)
+    const Hit hit = geometry.rays.nearest(ray);
+    if (!hit) {
+      ++s.sky;
+      continue;
+    }
+    const Side side = sideOf(geometry, ray, hit);
+    ++(side == Side::Front ? s.fronts : side == Side::Back ? s.backs : s.others);
+    seen.add(hit.normal);
+  }
+  if (s.inRoom()) walls.add(seen);
+  return s;
+}
 
 CellBox cellsOver(const glm::dmat3& axes, glm::dvec3 low, glm::dvec3 high, double least, double most) {
   CellBox box;
@@ -131,6 +128,15 @@ double WallAngles::most() const {
   double sine = 0, cosine = 0;
   for (int step = -1; step <= 1; ++step) sine += around(best, step).sine, cosine += around(best, step).cosine;
   return most > 0 ? std::atan2(sine, cosine) / 4 : 0;
+}
+
+double WallAngles::share(double angle) const {
+  double all = 0, near = 0;
+  for (const Bin& b : bins_) all += b.count;
+  const double turn = 4 * angle / (2 * std::numbers::pi);
+  const int middle = int((turn - std::floor(turn)) * kBins);
+  for (int step = -2; step <= 2; ++step) near += bins_[std::size_t((middle + step + kBins) % kBins)].count;
+  return all > 0 ? near / all : 0;
 }
 
 void Space::clear() {

@@ -30,6 +30,8 @@ class WallAngles {
   void add(const WallAngles& other);
   /// The angle, radians in [-pi/4, pi/4), of most of them; 0 without any.
   [[nodiscard]] double most() const;
+  /// The share of them within about half a degree of an angle; 0 without any.
+  [[nodiscard]] double share(double angle) const;
 
  private:
   static constexpr int kBins = 360;
@@ -38,6 +40,14 @@ class WallAngles {
   };
   std::vector<Bin> bins_ = std::vector<Bin>(kBins);
 };
+
+/// What is in sight of a point.
+struct Sight {
+  int sky = 0, fronts = 0, backs = 0, others = 0;
+  [[nodiscard]] bool inRoom() const;
+};
+/// Where the point is in a room, the directions of the walls that it sees are added.
+Sight lookFrom(const Geometry& geometry, glm::dvec3 point, WallAngles& walls);
 
 struct Space {
   CellBox cells;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "prefilter/parallel.h"
@@ -15,10 +16,44 @@ using reference::Hit;
 using reference::Ray;
 namespace shading = burnish::shading::f64;
 
-constexpr int kLookSize = 8;        // an octahedral map of so many texels a side: directions for the looks around that need no map
-constexpr int kRaysPerTexelSide = 2;  // of a map of distances: its square: rays a texel
+constexpr int kLookSize = 8;          // an octahedral map of so many texels a side: directions for the looks around that need no map
+constexpr double kSomeBacks = 0.2;    // of the rays that tell: from here on it is asked whether a body is around the point
+constexpr int kRaysPerTexelSide = 4;  // of a map of distances: its square: rays a texel
 
+// The middles of texels of a map with an even number of them are symmetric about its middle.
 glm::dvec3 lookDirection(int i) { return shading::distanceDirection(i % kLookSize + 0.5, i / kLookSize + 0.5, kLookSize); }  // NOLINT(bugprone-integer-division)
+
+int opposite(int i) {
+  const glm::dvec2 texel = glm::floor(shading::distanceTexel(-lookDirection(i), kLookSize));
+  return int(texel.x) + kLookSize * int(texel.y);
+}
+
+/// One-sided opaque surfaces that the ray leaves more often than it enters them, in order.
+std::vector<std::uint32_t> leftBy(const Geometry& geometry, const Ray& ray, std::vector<Hit>& hits) {
+  geometry.rays.all(ray, hits);
+  std::sort(hits.begin(), hits.end(), [](const Hit& a, const Hit& b) { return a.mesh < b.mesh; });
+  std::vector<std::uint32_t> out;
+  for (std::size_t from = 0, to = 0; from < hits.size(); from = to) {
+    int balance = 0;
+    for (to = from; to < hits.size() && hits[to].mesh == hits[from].mesh; ++to) balance += hits[to].back ? 1 : -1;
+    if (balance > 0 && !geometry.surfaces[hits[from].mesh].twoSided) out.push_back(hits[from].mesh);
+  }
+  return out;
+}
+
+/// In all of many directions one and the same instance is left more often than entered.
+bool inBody(const Geometry& geometry, glm::dvec3 point) {
+  constexpr int kStep = 5;  // every fifth direction: 13 of them, on all sides
+  std::vector<Hit> hits;
+  std::vector<std::uint32_t> bodies;
+  for (int i = 0; i < kLookSize * kLookSize; i += kStep) {
+    std::vector<std::uint32_t> now = leftBy(geometry, {point, lookDirection(i), 0, std::numeric_limits<double>::infinity(), kOpaque}, hits);
+    if (i > 0) std::erase_if(now, [&](std::uint32_t mesh) { return !std::binary_search(bodies.begin(), bodies.end(), mesh); });
+    bodies = std::move(now);
+    if (bodies.empty()) return false;
+  }
+  return true;
+}
 
 bool lattice(const AmbientGrid& grid) {
   for (int k = 0; k < 3; ++k)
@@ -28,25 +63,39 @@ bool lattice(const AmbientGrid& grid) {
 
 }  // namespace
 
-bool seesBack(const Geometry& geometry, const Ray& ray, const Hit& hit) {
-  if (!hit.back || geometry.surfaces[hit.mesh].twoSided) return false;
+Side sideOf(const Geometry& geometry, const Ray& ray, const Hit& hit) {
+  if (geometry.surfaces[hit.mesh].twoSided) return Side::Unknown;
+  // The other sheet may be met a little before or behind.
+  const double slack = 1e-6 * hit.distance + 4 * geometry.rays.rounding();
   Ray again = ray;
+  again.from = std::max(0.0, hit.distance - slack);
+  again.to = hit.distance + slack;
   again.cull = true;
-  again.to = hit.distance + 1e-6 * std::abs(hit.distance) + 4 * geometry.rays.rounding();
-  return !geometry.rays.nearest(again);
+  if (hit.back) return geometry.rays.nearest(again) ? Side::Unknown : Side::Back;
+  // From the other end what faces this way is a back.
+  again.origin = ray.origin + ray.direction * (2 * hit.distance);
+  again.direction = -ray.direction;
+  return geometry.rays.nearest(again) ? Side::Unknown : Side::Front;
 }
 
 bool isFree(const Geometry& geometry, glm::dvec3 point, double touch) {
+  constexpr int kDirections = kLookSize * kLookSize;
   int fronts = 0, backs = 0;
-  for (int i = 0; i < kLookSize * kLookSize; ++i) {
+  std::array<double, kDirections> distances{};
+  for (int i = 0; i < kDirections; ++i) {
     const Ray ray{point, lookDirection(i), 0, std::numeric_limits<double>::infinity(), kOpaque};
     const Hit hit = geometry.rays.nearest(ray);
+    distances[std::size_t(i)] = hit.distance;
     if (!hit) continue;
     if (hit.distance < touch) return false;
-    if (geometry.surfaces[hit.mesh].twoSided) continue;
-    (seesBack(geometry, ray, hit) ? backs : fronts) += 1;
+    const Side side = sideOf(geometry, ray, hit);
+    fronts += side == Side::Front;
+    backs += side == Side::Back;
   }
-  return backs <= fronts;
+  for (int i = 0; i < kDirections; ++i)
+    if (distances[std::size_t(i)] + distances[std::size_t(opposite(i))] < kCrack) return false;
+  if (backs > fronts) return false;
+  return backs == 0 || backs < kSomeBacks * (backs + fronts) || !inBody(geometry, point);
 }
 
 double skyShare(const Geometry& geometry, glm::dvec3 point) {

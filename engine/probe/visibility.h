@@ -8,11 +8,16 @@ namespace burnish::probe {
 
 /// A surface nearer than this is touched: a picture from there shows little else. metres; and of a lattice's points a share of its closest spacing.
 inline constexpr double kTouch = 0.05, kTouchShare = 0.02;
+/// Metres: what lies in a narrower crack is no free point.
+inline constexpr double kCrack = 0.05;
 
-/// Whether what the ray met (geometry.rays.nearest) is the back of a one-sided surface. Where two sheets lie on each other, back to back, the one that faces the ray is what is there.
-bool seesBack(const Geometry& geometry, const reference::Ray& ray, const reference::Hit& hit);
+/// What a ray met (geometry.rays.nearest) says of where it comes from: free space, the inside of something, or nothing: a two-sided surface, or two sheets on each other, back to back, as walls
+/// without thickness have them, and a body that stands on a floor.
+enum class Side : std::uint8_t { Front, Back, Unknown };
+Side sideOf(const Geometry& geometry, const reference::Ray& ray, const reference::Hit& hit);
 
-/// Whether a point is free: not inside something (most of the rays from it that meet a one-sided surface see its back), and nothing opaque is nearer than `touch`.
+/// Whether a point is free: not inside something nor in a crack (kCrack), and nothing opaque is nearer than `touch`. It is inside something where most of the rays from it that tell see a back; or a fifth of them do,
+/// and in all of many directions one and the same instance is left more often than entered: bodies that stick in each other show fronts inside.
 bool isFree(const Geometry& geometry, glm::dvec3 point, double touch = kTouch);
 
 /// The share of directions, 0 to 1, in which nothing opaque or transparent is.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 #include <tuple>
 
 #include "prefilter/parallel.h"
@@ -160,13 +161,15 @@ RayScene::RayScene(RayScene&&) noexcept = default;
 RayScene& RayScene::operator=(RayScene&&) noexcept = default;
 RayScene::~RayScene() = default;
 
-Result<RayScene> RayScene::create(std::span<const TriangleMesh> meshes) {
+Result<RayScene> RayScene::create(std::span<const TriangleMesh> meshes) try {
   auto parts = std::make_unique<Parts>();
   parts->bound(meshes);
   if (parts->triangles > kMaxTriangles) return fail("ray tracing", fmt::format("{} triangles, at most {} can be taken", parts->triangles, kMaxTriangles), "use a smaller scene");
   for (const TriangleMesh& mesh : meshes) parts->take(mesh);
   if (auto made = parts->commit(meshes); !made) return fail(made.error());
   return RayScene(std::move(parts));
+} catch (const std::bad_alloc&) {
+  return fail("ray tracing", "memory runs out", "use a smaller scene");
 }
 
 namespace {

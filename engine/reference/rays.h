@@ -42,7 +42,7 @@ struct Hit {
 /// Triangles in an order in which rays find them fast (Embree, robust mode: no ray slips between triangles that share an edge). Threads may ask it at once.
 class RayScene {
  public:
-  static constexpr std::size_t kMaxTriangles = 100'000'000;
+  static constexpr std::size_t kMaxTriangles = 30'000'000;  ///< some gigabytes
   /// Copies the meshes. Errors: more than kMaxTriangles, memory runs out.
   static Result<RayScene> create(std::span<const TriangleMesh> meshes);
   RayScene(RayScene&&) noexcept;

@@ -46,18 +46,42 @@ inline double meets(const Facet& f, dvec3 origin, dvec3 direction) {
 }
 inline bool seenFromBehind(const Facet& f, dvec3 direction) { return glm::dot(glm::cross(f.u, f.v), direction) > 0; }
 
-/// Inside a body: most rays in irregular directions leave one and the same instance through more backs than they enter through fronts.
-inline bool insideSolid(const std::vector<Facet>& facets, dvec3 point) {
-  const dvec3 directions[] = {{0.531, 0.722, 0.443}, {-0.612, 0.431, -0.663}, {0.213, -0.911, 0.353}, {-0.377, -0.253, 0.891}, {0.845, 0.119, -0.521}};
-  std::map<std::uint32_t, int> votes;
-  for (const dvec3& d : directions) {
-    std::map<std::uint32_t, int> balance;
-    for (const Facet& f : facets)
-      if (f.opaque && !f.twoSided && std::isfinite(meets(f, point, d))) balance[f.instance.index] += seenFromBehind(f, d) ? 1 : -1;
-    for (const auto& [instance, count] : balance) votes[instance] += count > 0;
+/// Inside a body: in every one of many directions a ray leaves one and the same instance through more backs than it enters through fronts. (A sheet, which has no inside, is left in half of them.)
+class Solids {
+ public:
+  explicit Solids(const Scene& scene) {
+    for (const Facet& f : facetsOf(scene)) {
+      if (!f.opaque || f.twoSided) continue;
+      Body& body = bodies_[f.instance.index];
+      body.facets.push_back(f);
+      for (const dvec3& corner : {f.a, f.a + f.u, f.a + f.v}) body.low = glm::min(body.low, corner), body.high = glm::max(body.high, corner);
+    }
   }
-  return std::any_of(votes.begin(), votes.end(), [](const auto& v) { return v.second > 2; });
-}
+  [[nodiscard]] bool hold(dvec3 point) const {
+    return std::any_of(bodies_.begin(), bodies_.end(), [&](const auto& b) {
+      return glm::all(glm::lessThan(b.second.low, point)) && glm::all(glm::lessThan(point, b.second.high)) && inside(b.second, point);
+    });
+  }
+
+ private:
+  struct Body {
+    std::vector<Facet> facets;
+    dvec3 low{INFINITY}, high{-INFINITY};
+  };
+  static bool inside(const Body& body, dvec3 point) {
+    constexpr int kDirections = 14;
+    for (int i = 0; i < kDirections; ++i) {
+      const double y = 1 - 2 * (i + 0.5) / kDirections, r = std::sqrt(1 - y * y), turn = 2.399963 * i + 0.3;
+      const dvec3 d(r * std::cos(turn), y, r * std::sin(turn));
+      int balance = 0;
+      for (const Facet& f : body.facets)
+        if (std::isfinite(meets(f, point, d))) balance += seenFromBehind(f, d) ? 1 : -1;
+      if (balance <= 0) return false;
+    }
+    return true;
+  }
+  std::map<std::uint32_t, Body> bodies_;
+};
 
 inline probe::Geometry geometryOf(const Scene& scene) {
   auto made = probe::Geometry::create(scene, nullptr);
