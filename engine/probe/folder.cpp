@@ -14,6 +14,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
+bool isOurs(std::string_view name) { return isPayloadName(name) && (name.starts_with("reflection_") || name.starts_with("grid_")); }
+/// Of a writer that was killed: whoever asks is the only one now.
+bool isLeftover(std::string_view name) { return name.starts_with(".burnish-") && name.ends_with(".tmp"); }
+
 bool sameFile(const fs::path& file, const FileEntry& entry) {
   const auto bytes = core::readFile(file, entry.bytes);
   return bytes && bytes->size() == entry.bytes && core::hashOf(*bytes) == entry.hash;
@@ -48,9 +52,7 @@ class Payloads {
     std::vector<fs::path> stale;
     for (fs::directory_iterator it(folder_, error), end; !error && it != end; it.increment(error)) {
       const std::string name = it->path().filename().string();
-      const bool ours = isPayloadName(name) && (name.starts_with("reflection_") || name.starts_with("grid_"));
-      const bool leftover = name.starts_with(".burnish-") && name.ends_with(".tmp");  // of a writer that was killed: there is no other one now
-      if (leftover || (ours && !kept_.contains(name))) stale.push_back(it->path());
+      if (isLeftover(name) || (isOurs(name) && !kept_.contains(name))) stale.push_back(it->path());
     }
     for (const fs::path& file : stale) fs::remove(file, error);
   }
@@ -124,9 +126,15 @@ Result<bool> ensureFolder(const fs::path& folder) {
   }
   if (!fs::is_directory(status)) return fail(folder.string(), error ? fmt::format("cannot be looked at ({})", error.message()) : "is no folder", "name a new folder");
   if (fs::exists(named / kManifestName, error) || fs::exists(named / kWorkName / kLockName, error)) return false;
-  const bool empty = fs::is_empty(named, error);
+  // What was killed in its first moment left nothing but the beginnings of a set.
+  bool foreign = false;
+  fs::directory_iterator it(named, error);
+  for (const fs::directory_iterator end; !error && it != end && !foreign; it.increment(error)) {
+    const std::string name = it->path().filename().string();
+    foreign = !isOurs(name) && !isLeftover(name) && name != kWorkName;
+  }
   if (error) return fail(folder.string(), fmt::format("cannot be listed ({})", error.message()), "check the permissions");
-  if (!empty) return fail(folder.string(), "holds other things than probes", "name a new or an empty folder");
+  if (foreign) return fail(folder.string(), "holds other things than probes", "name a new or an empty folder");
   return false;
 }
 

@@ -16,11 +16,11 @@ namespace fs = std::filesystem;
 
 /// Shards that start at one time look at and change a bake's state one after the other. Short; the bakes themselves go on side by side.
 Result<core::UniqueFd> stateLock(const Paths& paths) {
-  core::UniqueFd fd(::open((paths.work / "state_lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666));
+  core::UniqueFd fd(::open((paths.work / kStateLockName).c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666));
   int result = fd ? 0 : -1;
   while (fd && (result = ::flock(fd.get(), LOCK_EX)) != 0 && errno == EINTR) {
   }
-  if (result != 0) return fail((paths.work / "state_lock").string(), fmt::format("cannot be locked ({})", std::strerror(errno)), "check the permissions, or choose another folder");
+  if (result != 0) return fail((paths.work / kStateLockName).string(), fmt::format("cannot be locked ({})", std::strerror(errno)), "check the permissions, or choose another folder");
   return fd;
 }
 

@@ -9,7 +9,7 @@
 
 namespace burnish::probe {
 
-inline constexpr std::string_view kWorkName = "work", kLockName = "lock";
+inline constexpr std::string_view kWorkName = "work", kLockName = "lock", kStateLockName = "state_lock";
 
 enum class Access { Shared, Alone };
 
@@ -17,7 +17,7 @@ enum class Access { Shared, Alone };
 class WorkLock {
  public:
   WorkLock() = default;
-  /// Makes work/ and its lock file if they are missing. At once: a folder in use is an error.
+  /// Makes work/ and its lock files if they are missing. At once: a folder in use is an error.
   static Result<WorkLock> take(const std::filesystem::path& folder, Access access);
   /// From Alone to Shared.
   Result<void> share();

@@ -30,8 +30,10 @@ Result<WorkLock> WorkLock::take(const fs::path& folder, Access access) {
   fs::create_directory(work, error);
   if (error) return fail(work.string(), fmt::format("cannot be made ({})", error.message()), "check the permissions, or choose another folder");
   WorkLock lock;
-  lock.fd_.reset(::open((work / kLockName).c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666));
-  if (!lock.fd_) return fail((work / kLockName).string(), fmt::format("cannot be opened ({})", std::strerror(errno)), "check the permissions, or choose another folder");
+  for (const std::string_view name : {kStateLockName, kLockName}) {
+    lock.fd_.reset(::open((work / name).c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666));
+    if (!lock.fd_) return fail((work / name).string(), fmt::format("cannot be opened ({})", std::strerror(errno)), "check the permissions, or choose another folder");
+  }
   if (auto ok = locked(lock.fd_.get(), access, folder); !ok) return fail(ok.error());
   return lock;
 }

@@ -692,9 +692,9 @@ class Bake(Program):
         return json.loads(self.bake(name, *more, "--json", "-").stdout)
 
     def content(self, name):
-        """Names and bytes of all that a folder holds, but for locks."""
+        """Names and bytes of all that a folder holds."""
         root = self.out / name
-        return {str(p.relative_to(root)): p.read_bytes() for p in sorted(root.rglob("*")) if p.is_file() and p.name not in ("lock", "state_lock")}
+        return {str(p.relative_to(root)): p.read_bytes() for p in sorted(root.rglob("*")) if p.is_file()}
 
     def assertSame(self, a, b):
         self.assertEqual(sorted(a), sorted(b))
@@ -724,6 +724,17 @@ class Bake(Program):
         for subcommand in (["render", "-o", self.out / "with.png", "--size", "64x36"], ["plan"]):
             self.good(subcommand[0], self.rooms, *subcommand[1:], "--probes", self.out / "a")
         self.assertTrue((self.out / "with.png").exists())
+
+    def test_rooms_are_found(self):
+        scene = json.loads(rooms_text())
+        keep = [i for i, node in enumerate(scene["nodes"]) if not node["name"].startswith(("probe", "lattice"))]
+        scene["scenes"][0]["nodes"] = keep
+        self.rooms.write_text(json.dumps(scene))
+        self.bad(1, "bake", self.rooms, "-o", self.out / "a", *self.OPTIONS, says="--auto")
+        self.bake("a", "--auto")
+        text = self.good("inspect", self.out / "a").stdout
+        self.assertIn("reflection probes: 2", text)
+        self.assertIn("lattice: ", text)
 
     def test_files_of_a_folder_are_ktx2(self):
         self.bake("a")
@@ -907,7 +918,7 @@ class Bake(Program):
         self.bad(2, "bake", self.rooms, says="--output")
         self.bad(2, "bake", "--merge", self.out, self.rooms, says="--merge")
         self.bad(2, "bake", "--merge", self.out, "--resume", says="--merge")
-        self.bad(1, "bake", self.scene, "-o", self.out / "a", says=("scene.gltf", "no places for probes"))
+        self.bad(1, "bake", self.scene, "-o", self.out / "a", says=("scene.gltf", "no places for probes", "--auto"))
         self.bad(1, "bake", "--merge", self.out / "none", says="holds no bake")
         self.bad(1, "render", self.scene, "-o", self.out / "a.png", "--probes", self.out / "none", says="no such folder")
         self.bad(1, "render", self.scene, "-o", self.out / "a.png", "--probes", self.out, says="probes.json")

@@ -22,7 +22,7 @@ struct BakeArguments {
   std::string output, merge, json;
   burnish::BakeOptions options;
   int shard = 0, shards = 0, bounce = 0;
-  bool resume = false;
+  bool automatic = false, resume = false;
 
   [[nodiscard]] bool quiet() const { return json == "-"; }
 };
@@ -60,10 +60,22 @@ std::string placesText(const burnish::ProbeSet& set) {
   return text;
 }
 
-Result<void> findPlaces(const BakeArguments& arguments, LoadedScene& loaded) {
-  const burnish::ProbeSet& set = loaded.scene.probes;
-  if (set.reflections.empty() && !set.grid)
-    return fail(arguments.scene.scene, "has no places for probes", "name nodes as docs/probes.md says");
+constexpr int kSteps = 100;  // of the progress line
+
+/// The file's places, with --auto those that its rooms ask for too.
+Result<void> findPlaces(const BakeArguments& arguments, LoadedScene& loaded, Progress& progress) {
+  burnish::ProbeSet& set = loaded.scene.probes;
+  if (arguments.automatic) {
+    burnish::PlacementOptions options;
+    options.threads = arguments.scene.threads;
+    options.progress = [&progress](double share) { progress.step(int(share * kSteps), kSteps); };
+    progress.stage("finding rooms");
+    auto placed = burnish::placeProbes(loaded.scene, options, loaded.report);
+    if (!placed) return fail(placed.error());
+    set = std::move(*placed);
+    if (set.reflections.empty() && !set.grid) return fail(arguments.scene.scene, "no rooms were found in it, and it has no places for probes", "name nodes as docs/probes.md says");
+  }
+  if (set.reflections.empty() && !set.grid) return fail(arguments.scene.scene, "has no places for probes", "have them found with --auto, or name nodes as docs/probes.md says");
   return {};
 }
 
@@ -101,7 +113,7 @@ int runBake(const BakeArguments& arguments) {
   Progress progress;
   auto loaded = loadScene(arguments.scene, progress);
   if (!loaded) return progress.finish(), printError(loaded.error());
-  if (auto found = findPlaces(arguments, *loaded); !found) return progress.finish(), printError(found.error());
+  if (auto found = findPlaces(arguments, *loaded, progress); !found) return progress.finish(), printError(found.error());
   progress.stage("preparing");
   const auto context = openContext(arguments.scene);
   if (!context) return progress.finish(), printError(context.error());
@@ -177,6 +189,7 @@ void addOptions(CLI::App& app, BakeArguments& arguments) {
   app.add_option("-o,--output", arguments.output, "the folder of probes: new, empty, or one that holds probes (with --resume)")->type_name("DIR");
   app.add_option("--bounces", arguments.options.bounces, "bake this many bounces, without a look at the rest")->type_name("N")->check(CLI::Range(1, 1000));
   addShares(app, arguments);
+  app.add_flag("--auto", arguments.automatic, "find rooms in the geometry: a probe for each, and a lattice; places of the file stay");
   app.add_flag("--resume", arguments.resume, "go on with what the folder holds: what has not changed is not baked again");
   app.add_option_function<std::string>("--shard", [&arguments](const std::string& text) { checkShard(text, arguments); }, "bake part I of N of one bounce (--bounce), beside other processes")->type_name("I/N");
   app.add_option("--bounce", arguments.bounce, "with --shard: which bounce; the one before must be joined")->type_name("K")->check(CLI::Range(1, 1000));
@@ -192,7 +205,7 @@ void relate(CLI::App& app) {
   option("--bounces")->excludes(option("--until"));
   option("--bounce")->needs(option("--shard"));
   option("--shard")->needs(option("--bounce"));
-  for (const char* other : {"SCENE", "--output", "--bounces", "--until", "--resume", "--shard", "--size", "--ambient-size", "--lobe", "--albedo-limit"}) option("--merge")->excludes(option(other));
+  for (const char* other : {"SCENE", "--output", "--bounces", "--until", "--auto", "--resume", "--shard", "--size", "--ambient-size", "--lobe", "--albedo-limit"}) option("--merge")->excludes(option(other));
 }
 
 }  // namespace
@@ -206,6 +219,7 @@ Command addBake(CLI::App& program) {
   app->footer(
       "Examples:\n"
       "  burnish bake hall.gltf -o probes\n"
+      "  burnish bake hall.gltf -o probes --auto            # a file without places\n"
       "  burnish bake hall.gltf -o probes --resume          # after a change, or a stop\n"
       "  burnish bake hall.gltf -o probes --shard 2/8 --bounce 1\n"
       "  burnish bake --merge probes\n"
