@@ -187,6 +187,7 @@ Result<void> uploadFrameData(FrameContext& c, float displayExposure) {
     d.environment.x = c.environment->lastLevel;
     for (std::size_t i = 0; i < 9; ++i) d.irradiance[i] = vec4(c.environment->irradiance[i] * scale, 0);
   }
+  d.probes = vec4(float(c.probes.size()), c.probeLight ? c.probeLight->lastLevel : 0, c.probeLight ? c.probeLight->scale * c.preExposure : 0, 0);
   if (c.plan.on("fog")) fillFog(d, c);
   if (c.plan.on("sun_disc") && c.scene.environment.sun) fillSun(d, c);
   d.environment.y = float(c.lights.local.size());

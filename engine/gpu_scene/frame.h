@@ -11,6 +11,7 @@
 #include "gpu_scene/gpu_scene.h"
 #include "gpu_scene/shadows.h"
 #include "scene/motion.h"
+#include "scene/probes.h"
 #include "scene/transparency.h"
 
 namespace burnish::gpu_scene {
@@ -68,6 +69,7 @@ gl::ProgramSource sourceOf(const ProgramPlan& plan);
 struct FrameBuffers {
   gl::Buffer frame, draws;
   ShadowBindings shadows;  ///< empty until a plan has shadows
+  gl::TextureBuffer probes;  ///< records; empty until a plan reads them
   std::size_t drawStride = 256;
   static Result<FrameBuffers> create(gl::Device& device);
   /// Vertex formats of the geometry programs, made when first asked for.
@@ -107,6 +109,8 @@ struct FrameContext {
   std::span<const scene::TransparentGroup> transparent{};  ///< farthest first
   scene::ShadowSet* shadows = nullptr;    ///< of the first of `lights`; the pass "shadow_maps" says in which layers its maps are
   const GpuEnvironment* environment = nullptr;
+  std::span<const scene::SeenProbe> probes{};  ///< smaller boxes before larger ones
+  const GpuProbes* probeLight = nullptr;       ///< nullptr: nothing looks reflections up in them
   glm::ivec2 size{0};      ///< of the target
   GLuint output = 0;       ///< the target's framebuffer
   float preExposure = 1;   ///< the light buffer holds radiance times this

@@ -11,6 +11,7 @@
 #include "gpu_scene/deformation.h"
 #include "gpu_scene/layout.h"
 #include "gpu_scene/mesh_parts.h"
+#include "gpu_scene/probes.h"
 
 namespace burnish::gpu_scene {
 
@@ -65,6 +66,8 @@ class GpuScene {
   [[nodiscard]] const gl::Buffer& materials() const { return materialBuffer_; }
   /// Only called when the plan lights by it or shows it.
   Result<const GpuEnvironment*> environment(const Scene& scene, EnvironmentWants wants, Report& report);
+  /// Only called when the plan looks reflections up in captured places: some probe of the scene is usable.
+  Result<const GpuProbes*> probes(const Scene& scene, Report& report);
 
   [[nodiscard]] Deformation& deformation() { return deformation_; }
   /// Whether so many bytes may be uploaded in this frame; they count as uploaded then.
@@ -110,6 +113,8 @@ class GpuScene {
   std::size_t materialStride_ = 256;
   std::unique_ptr<GpuEnvironment> environment_;
   std::uint64_t environmentRevision_ = 0;
+  std::unique_ptr<GpuProbes> probes_;
+  std::uint64_t probesRevision_ = 0;
   std::uint64_t meshesRevision_ = 0, texturesRevision_ = 0, materialsRevision_ = ~0ull;
   Deformation deformation_;
   std::uint64_t meshSerial_ = 0;

@@ -138,29 +138,39 @@ void TileCuller::cullLight(const scene::ViewFrame& view, const scene::LocalLight
     }
 }
 
-// The box's extremes on the image plane, from its corners; one that reaches the near plane may be anywhere.
-void TileCuller::markDetail(const scene::ViewFrame& view, const DetailBox& box) {
-  glm::dvec3 low(1e300), high(-1e300);
+// Extremes on the image plane; what reaches the near plane may be anywhere.
+TileCuller::Spanned TileCuller::spanOf(const scene::ViewFrame& view, const std::array<glm::dvec3, 8>& corners) const {
+  Spanned s;
   glm::dvec2 imageLow(1e300), imageHigh(-1e300);
-  for (int corner = 0; corner < 8; ++corner) {
-    const glm::dvec3 sign(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1), p = glm::dvec3(box.center) + sign * glm::dvec3(box.extent) * 1.0001;
-    const glm::dvec3 q(glm::dot(view.axes[0], p), glm::dot(view.axes[1], p), -glm::dot(view.axes[2], p));
-    low = glm::min(low, q);
-    high = glm::max(high, q);
+  for (const glm::dvec3& q : corners) {
+    s.low = glm::min(s.low, q);
+    s.high = glm::max(s.high, q);
     const glm::dvec2 image = glm::dvec2(q) / (view.orthographic ? 1.0 : std::max(q.z, 1e-9));
     imageLow = glm::min(imageLow, image);
     imageHigh = glm::max(imageHigh, image);
   }
-  if (!view.orthographic && high.z < near_) return;
-  const bool whole = !view.orthographic && low.z < near_ * 1.01;
+  if (!view.orthographic && s.high.z < near_) return s;
+  const bool whole = !view.orthographic && s.low.z < near_ * 1.01;
   // A pixel more to either side: views that are sampled over time are shifted within one.
   const auto tileAt = [](double image, double tan, double pixels, int tiles, double more) { return int(std::clamp(std::floor(((image / tan + 1) * 0.5 * pixels + more) / TILE_SIZE), -1.0, double(tiles))); };
   const double w = view.viewport.z, h = view.viewport.w;
-  const int tx0 = whole ? 0 : std::max(tileAt(imageLow.x, view.tanX, w, columns_, -1), 0), tx1 = whole ? columns_ - 1 : std::min(tileAt(imageHigh.x, view.tanX, w, columns_, 1), columns_ - 1);
-  const int ty0 = whole ? 0 : std::max(tileAt(imageLow.y, view.tanY, h, rows_, -1), 0), ty1 = whole ? rows_ - 1 : std::min(tileAt(imageHigh.y, view.tanY, h, rows_, 1), rows_ - 1);
-  const auto meets = [&](const Box& b) { return double(b.maxZ) >= low.z && double(b.minZ) <= high.z; };
-  for (int ty = ty0; ty <= ty1; ++ty)
-    for (int tx = tx0; tx <= tx1; ++tx) {
+  s.tx0 = whole ? 0 : std::max(tileAt(imageLow.x, view.tanX, w, columns_, -1), 0);
+  s.tx1 = whole ? columns_ - 1 : std::min(tileAt(imageHigh.x, view.tanX, w, columns_, 1), columns_ - 1);
+  s.ty0 = whole ? 0 : std::max(tileAt(imageLow.y, view.tanY, h, rows_, -1), 0);
+  s.ty1 = whole ? rows_ - 1 : std::min(tileAt(imageHigh.y, view.tanY, h, rows_, 1), rows_ - 1);
+  return s;
+}
+
+void TileCuller::markDetail(const scene::ViewFrame& view, const DetailBox& box) {
+  std::array<glm::dvec3, 8> corners;
+  for (std::size_t i = 0; i < 8; ++i) {
+    const glm::dvec3 p = glm::dvec3(box.center) + glm::dvec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1) * glm::dvec3(box.extent) * 1.0001;
+    corners[i] = {glm::dot(view.axes[0], p), glm::dot(view.axes[1], p), -glm::dot(view.axes[2], p)};
+  }
+  const Spanned s = spanOf(view, corners);
+  const auto meets = [&](const Box& b) { return double(b.maxZ) >= s.low.z && double(b.minZ) <= s.high.z; };
+  for (int ty = s.ty0; ty <= s.ty1; ++ty)
+    for (int tx = s.tx0; tx <= s.tx1; ++tx) {
       const std::size_t i = std::size_t(ty * columns_ + tx);
       if (slices_[i] > 0 && (meets(boxes_[i][0]) || (slices_[i] == 2 && meets(boxes_[i][1])))) detail_[i] |= bitsOf(box.details);
     }
@@ -204,6 +214,7 @@ void TileCuller::buildLists(std::span<const scene::LocalLight> lights, std::size
   lists_.tiles.clear();
   lists_.groups.clear();
   lists_.entries.clear();
+  lists_.probes.clear();
   std::vector<std::uint8_t> seen(lights.size() + 1);
   const auto addGroup = [&](int bucket, plan::Details details) {
     TileGroup g{bucket, int(lists_.tiles.size()), 0, details};
@@ -220,6 +231,7 @@ void TileCuller::buildLists(std::span<const scene::LocalLight> lights, std::size
       }
       if (bucket > 0) lists_.entries.resize(first + std::size_t(bucket), 0);
       lists_.tiles.emplace_back(int(i) % columns_, int(i) / columns_, int(first), int(lists_.entries.size() - first) + (int(shadowed_[i]) << 16));
+      if (!probes_.empty()) lists_.probes.push_back(probes_[i]);
     }
     g.count = int(lists_.tiles.size()) - g.first;
     if (g.count > 0) lists_.groups.push_back(g);
@@ -242,7 +254,7 @@ void TileCuller::listBackground(std::span<const TileDepth> depths) {
 }
 
 const TileLists& TileCuller::cull(const scene::ViewFrame& view, std::span<const TileDepth> depths, std::span<const scene::LocalLight> lights, std::size_t shadowed, std::span<const DetailBox> details,
-                                  const std::function<TileSurfaces*()>& surfaces) {
+                                  const std::function<TileSurfaces*()>& surfaces, const std::vector<ProbeBox>* probes) {
   columns_ = (view.viewport.z + TILE_SIZE - 1) / TILE_SIZE;
   rows_ = (view.viewport.w + TILE_SIZE - 1) / TILE_SIZE;
   near_ = view.near;
@@ -254,6 +266,9 @@ const TileLists& TileCuller::cull(const scene::ViewFrame& view, std::span<const 
   if (surfaces && pairs_.size() > depths.size() / 2) keepReached(lights, *surfaces());
   detail_.assign(depths.size(), 0);
   for (const DetailBox& box : details) markDetail(view, box);
+  probes_.clear();
+  lists_.crowded = lists_.mostProbes = 0;
+  if (probes) findProbes(view, *probes);
   buildLists(lights, shadowed);
   listBackground(depths);
   return lists_;

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "interface/limits.h"
 #include "lighting/tile_surfaces.h"
 #include "plan/variants.h"
 #include "scene/visibility.h"
@@ -37,10 +38,20 @@ struct DetailBox {
   glm::vec3 center{0}, extent{0};
   plan::Details details;
 };
+/// An oriented box, relative to the eye, that lights what lies in it or within `margin` of it.
+struct ProbeBox {
+  glm::dvec3 center{0}, halfSize{0};
+  glm::dmat3 axes{1};  ///< columns
+  double margin = 0;
+};
+/// Probes of a tile, smaller boxes before larger ones: indices; -1 where the list ends.
+using TileProbes = glm::vec<MAX_TILE_PROBES, std::int16_t>;
 struct TileLists {
   std::vector<TileVertex> tiles;        ///< those with something to light, grouped; then those that show the background
   std::vector<TileGroup> groups;        ///< none empty
   std::vector<std::uint16_t> entries;   ///< light index + 1; 0 is the black light that pads
+  std::vector<TileProbes> probes;       ///< of each of `tiles` that has something to light; none without probes
+  int crowded = 0, mostProbes = 0;      ///< tiles that more probes meet than a list holds; the most that meet one
   TileGroup background;                 ///< of `tiles`
   int lightsInView = 0;
 };
@@ -49,9 +60,10 @@ class TileCuller {
  public:
   /// No false negatives: every light whose sphere (and cone) touches a surface between the tile's depths is listed. Lights past 65534 are left out by the caller.
   /// `shadowed`: so many of the first lights cast shadows. `details`: around brushed and rough surfaces; tiles that may show one go into groups of their own.
+  /// `probes`: smaller boxes before larger ones; each tile lists the first MAX_TILE_PROBES that meet what it shows. nullptr: no lists.
   /// `surfaces`: asked for where lights are many enough to pay for it; those that reach no pixel of a tile from its front are not listed for it then.
   const TileLists& cull(const scene::ViewFrame& view, std::span<const TileDepth> depths, std::span<const scene::LocalLight> lights, std::size_t shadowed = 0, std::span<const DetailBox> details = {},
-                        const std::function<TileSurfaces*()>& surfaces = {});
+                        const std::function<TileSurfaces*()>& surfaces = {}, const std::vector<ProbeBox>* probes = nullptr);
 
  private:
   struct Pair {
@@ -61,6 +73,8 @@ class TileCuller {
   void boundTiles(const scene::ViewFrame& view, std::span<const TileDepth> depths);
   void cullLight(const scene::ViewFrame& view, const scene::LocalLight& light, std::uint16_t index);
   void markDetail(const scene::ViewFrame& view, const DetailBox& box);
+  void findProbes(const scene::ViewFrame& view, const std::vector<ProbeBox>& probes);
+  void markProbe(const scene::ViewFrame& view, const ProbeBox& box, std::int16_t index);
   void sortPairs();
   void keepReached(std::span<const scene::LocalLight> lights, TileSurfaces& surfaces);
   void buildLists(std::span<const scene::LocalLight> lights, std::size_t shadowed);
@@ -72,9 +86,17 @@ class TileCuller {
   struct Box {
     float minX, maxX, minY, maxY, minZ, maxZ;
   };
+  // What eight corners in eye space span: a box, and the tiles that it may touch (none where it is behind the near plane).
+  struct Spanned {
+    glm::dvec3 low{1e300}, high{-1e300};
+    int tx0 = 0, tx1 = -1, ty0 = 0, ty1 = -1;
+  };
+  [[nodiscard]] Spanned spanOf(const scene::ViewFrame& view, const std::array<glm::dvec3, 8>& corners) const;
   std::vector<std::array<Box, 2>> boxes_;
   std::vector<std::uint8_t> slices_;  // 0: nothing is drawn, 1, 2
   std::vector<std::uint8_t> detail_;  // of each tile: kBrushed, kRough
+  std::vector<TileProbes> probes_;    // of each tile
+  std::vector<std::uint16_t> probeCounts_;  // that meet it
   std::vector<Pair> pairs_;
   std::vector<std::uint32_t> counts_, offsets_;
   std::vector<std::uint8_t> spots_;

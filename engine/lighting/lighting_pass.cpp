@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "plan/plan.h"
 #include "plan/rungs.h"
 #include "plan/variants.h"
 
@@ -118,8 +119,10 @@ Result<void> LightingPass::buildTiles(FrameContext& c) {
       readTileSurfaces(c);
       return &surfaces_;
     };
-  lists_ = &culler_.cull(c.view, tileDepths_, c.lights.local, c.shadows ? c.shadows->locals.size() : 0, detailBoxes(c), read);
+  const std::optional<std::vector<ProbeBox>> probes = probeBoxes(c);
+  lists_ = &culler_.cull(c.view, tileDepths_, c.lights.local, c.shadows ? c.shadows->locals.size() : 0, detailBoxes(c), read, probes ? &*probes : nullptr);
   c.stats.lightsInView += lists_->lightsInView;
+  if (auto w = uploadTileProbes(c); !w) return w;
   if (local)
     if (auto w = uploadLights(c); !w) return w;
   return uploadLists(local);
@@ -160,8 +163,8 @@ Result<GLuint> LightingPass::dfgTable(const Quality& quality) {
 }
 
 Result<void> LightingPass::bindSurroundings(FrameContext& c, int environmentUnit) {
-  const bool environment = c.plan.on("environment_lighting");
-  if (plan::needsDfg(c.quality, environment)) {
+  const bool environment = c.plan.on("environment_lighting"), probes = plan::reads(c.plan, "probe records");
+  if (plan::needsDfg(c.quality, environment || probes)) {
     auto table = dfgTable(c.quality);
     if (!table) return fail(table.error());
     c.device.gl.BindTextureUnit(UNIT_DFG, *table);
@@ -170,6 +173,7 @@ Result<void> LightingPass::bindSurroundings(FrameContext& c, int environmentUnit
     c.environment->cube.bind(GLuint(environmentUnit));
     c.device.gl.Enable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
   }
+  gpu_scene::bindProbes(c);
   return {};
 }
 
@@ -209,7 +213,7 @@ Result<void> LightingPass::shadeTiles(FrameContext& c) {
     entries_.bind(UNIT_LIGHT_LISTS);
   }
   gpu_scene::bindShadows(c);
-  bindTiles();
+  lists_->probes.empty() ? bindTiles() : bindProbeTiles();
   for (const TileGroup& g : lists_->groups) {
     plan::LightingVariant lighting{int(c.lights.directional.size()), environment, occlusion, c.view.orthographic};
     lighting.details = g.details;

@@ -1,5 +1,7 @@
 // Light culling and the lighting passes: "tiles", "occlusion", "occlusion_denoise", "lighting", "background".
 #pragma once
+#include <optional>
+
 #include "gpu_scene/frame.h"
 #include "lighting/light_tiles.h"
 #include "prefilter/dfg.h"
@@ -31,10 +33,14 @@ class LightingPass {
   void readTileSurfaces(gpu_scene::FrameContext& context);
   Result<void> uploadLights(gpu_scene::FrameContext& context);
   Result<void> uploadLists(bool entries);
+  Result<void> uploadTileProbes(gpu_scene::FrameContext& context);
+  /// Of the view's probes; none where the plan reads no records of them.
+  static std::optional<std::vector<ProbeBox>> probeBoxes(const gpu_scene::FrameContext& context);
   /// The environment and the lobe's table, where the quality reads them.
   Result<void> bindSurroundings(gpu_scene::FrameContext& context, int environmentUnit);
   Result<GLuint> dfgTable(const Quality& quality);
   void bindTiles();
+  void bindProbeTiles();
   static void widenViewport(const gpu_scene::FrameContext& context);
 
   gl::Device& device_;
@@ -45,8 +51,8 @@ class LightingPass {
   std::vector<TileDepth> tileDepths_;
   std::vector<std::uint32_t> normals_;
   TileSurfaces surfaces_;
-  gl::Buffer tiles_;
-  gl::VertexArray tileArray_;
+  gl::Buffer tiles_, tileProbes_;
+  gl::VertexArray tileArray_, probeTileArray_;  // the second with the tiles' probes
   gl::TextureBuffer lights_, entries_;
   std::array<gl::Texture, prefilter::kDfgTables> dfg_;  ///< made when first asked for
 };

@@ -58,6 +58,9 @@ void addEdgeAntialiasing(Builder& b);
 void addDebugView(Builder& b);
 void addDepthOut(Builder& b);
 
+/// What a pass reads that lights by the sky or by captured places.
+void readSurroundings(const Situation& s, PassPlan& pass);
+
 /// "NAME value", as shaders take it.
 std::string define(std::string_view name, int value);
 

@@ -68,13 +68,20 @@ Verdict environmentLighting(const Situation& s) {
   const Verdict called = sceneCalls(s, Call::Environment, "an environment map or colour would call for it");
   return provided(provided(called, quality, "the quality turns it off"), s.final() && anythingToLight(s), notLit(s));
 }
+Verdict reflectionProbes(const Situation& s) {
+  const bool quality = s.quality.environmentSpecular != EnvironmentSpecular::None || s.quality.ambient != Ambient::None;
+  const auto& probes = s.scene.probes.reflections;
+  const auto dark = std::find_if(probes.begin(), probes.end(), [](const ReflectionProbe& p) { return p.radiance.levels.empty(); });
+  const std::string otherwise = dark == probes.end() ? "a reflection probe would call for it" : fmt::format("reflection probe '{}' is not baked", dark->name);
+  return provided(provided(countedLights(s, Call::ReflectionProbe, s.facts.probes, otherwise), quality, "the quality turns it off"), s.final() && s.hasDepth(), notLit(s));
+}
 Verdict background(const Situation& s) { return provided(sceneCalls(s, Call::Background, "an environment shown as background would call for it"), s.final(), kNotShown); }
 
 /// Occlusion is taken from the light of the surroundings, and from that of lights where the quality says so.
 constexpr std::string_view kHoldsNothingBack = "no light that it holds back: it takes from the surroundings'";
 bool holdsBack(const Situation& s) {
   const bool lights = s.quality.directOcclusion != DirectOcclusion::None && (s.on("directional_lights") || s.on("local_lights"));
-  return s.options.debugView == DebugView::Occlusion || s.on("environment_lighting") || lights;
+  return s.options.debugView == DebugView::Occlusion || s.on("environment_lighting") || s.on("reflection_probes") || lights;
 }
 Verdict bakedOcclusion(const Situation& s) {
   const Verdict called = sceneCalls(s, Call::BakedOcclusion, s.quality.occlusion == Occlusion::None ? "the quality turns it off" : "a material with an occlusion map would call for it");
@@ -164,6 +171,7 @@ constexpr EffectRow kRows[] = {
     {{"local_lights", CalledBy::Scene, "point and spot lights"}, localLights, false},
     {{"shadows", CalledBy::Scene, "what stands in a light keeps it from what is behind"}, shadows, false},
     {{"environment_lighting", CalledBy::Scene, "light of the surroundings"}, environmentLighting, false},
+    {{"reflection_probes", CalledBy::Scene, "light of captured places"}, reflectionProbes, false},
     {{"background", CalledBy::Scene, "the surroundings where nothing was drawn"}, background, false},
     {{"baked_occlusion", CalledBy::Scene, "occlusion maps"}, bakedOcclusion, false},
     {{"sun_disc", CalledBy::Scene, "the sun itself in the background"}, sunDisc, false},

@@ -56,11 +56,9 @@ void addGBuffer(Builder& b) {
 void addForward(Builder& b) {
   const Situation& s = b.s;
   if (!s.forward()) return;
-  PassPlan& pass = b.pass("forward", {"forward_reference", "fog", "anisotropy", "rough_diffuse"}, {"meshes", "materials"}, {"light", "depth"});
+  PassPlan& pass = b.pass("forward", {"forward_reference", "reflection_probes", "fog", "anisotropy", "rough_diffuse"}, {"meshes", "materials"}, {"light", "depth"});
   if (s.on("local_lights")) pass.reads.emplace_back("lights");
-  const bool environment = s.on("environment_lighting");
-  if (needsCube(s.quality, environment)) pass.reads.emplace_back("environment cube");
-  if (needsDfg(s.quality, environment)) pass.reads.push_back("dfg");
+  readSurroundings(s, pass);
   if (s.shadows().rung != Shadow::None) pass.reads.push_back("shadow_maps");
   for (bool orthographic : s.projections())
     for (const GeometryVariant& v : s.facts.variants) b.use(pass, forwardProgram(v, s.quality, s.drawnLighting(orthographic)));

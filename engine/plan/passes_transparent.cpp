@@ -15,11 +15,10 @@ int levelsOf(glm::ivec2 size) { return std::clamp(int(std::bit_width(unsigned(st
 void addTransparent(Builder& b) {
   const Situation& s = b.s;
   if (!s.hasDepth() || !s.final() || !(s.on("alpha_blend") || s.on("glass"))) return;
-  const bool environment = s.on("environment_lighting"), glass = s.on("glass");
-  PassPlan& pass = b.pass("transparent", {"alpha_blend", "glass", "fog", "anisotropy", "rough_diffuse"}, {"meshes", "materials", "depth"}, {"light"});
+  const bool glass = s.on("glass");
+  PassPlan& pass = b.pass("transparent", {"alpha_blend", "glass", "reflection_probes", "fog", "anisotropy", "rough_diffuse"}, {"meshes", "materials", "depth"}, {"light"});
   if (s.on("local_lights")) pass.reads.emplace_back("lights");
-  if (needsCube(s.quality, environment)) pass.reads.emplace_back("environment cube");
-  if (needsDfg(s.quality, environment)) pass.reads.push_back("dfg");
+  readSurroundings(s, pass);
   if (s.shadows().rung != Shadow::None) pass.reads.push_back("shadow_maps");
   if (glass && s.facts.refracts) {
     b.target("scene_color", s.options.output == Output::Linear ? "RGBA32F" : "RGBA16F", {"glass"}, {0, 0}, s.facts.blurs ? levelsOf(s.options.size) : 1);

@@ -14,6 +14,7 @@ static_assert(int(Specular::GgxSmith) == SPECULAR_GGX_SMITH && int(Specular::War
 static_assert(int(Geometry::VCavity) == GEOMETRY_V_CAVITY && int(Normalization::Exact) == NORMALIZATION_EXACT && int(Lobe::Stable) == LOBE_STABLE);
 static_assert(int(Fresnel::Conductor) == FRESNEL_CONDUCTOR && int(Diffuse::OrenNayarEnergy) == DIFFUSE_OREN_NAYAR_ENERGY && int(Ambient::ShL2) == AMBIENT_SH_L2);
 static_assert(int(Compensation::MultipleScattering) == COMPENSATION_MULTIPLE_SCATTERING && int(EnvironmentSpecular::Sampled) == ENVIRONMENT_SPECULAR_SAMPLED);
+static_assert(int(Reflection::BoxRough) == REFLECTION_BOX_ROUGH);
 static_assert(int(SpecularOcclusion::Lagarde) == SPECULAR_OCCLUSION_LAGARDE && int(DirectOcclusion::Specular) == DIRECT_OCCLUSION_SPECULAR);
 
 constexpr Rung kSpecular[] = {
@@ -87,6 +88,11 @@ constexpr Rung kAmbient[] = {
     {"sh-l1", "spherical harmonics up to band 1", "Ramamoorthi and Hanrahan 2001, band 1"},
     {"sh-l2", "spherical harmonics up to band 2", "Ramamoorthi and Hanrahan 2001, eq. 13"},
 };
+constexpr Rung kReflection[] = {
+    {"infinite", "as if the captured walls were far away", "Blinn and Newell 1976"},
+    {"box", "where the ray meets the probe's box, seen from the capture's place", "Lagarde and Zanuttini 2012"},
+    {"box-rough", "the same, sharper where the box is near", "Lagarde and de Rousiers 2014, distance-based roughness"},
+};
 constexpr Rung kOcclusion[] = {
     {"none", "ambient light reaches everything", "the term left out"},
     {"baked", "map C's ambient occlusion on ambient diffuse", "Zhukov, Iones and Kronin 1998"},
@@ -147,6 +153,7 @@ constexpr Term kTerms[] = {
     {"compensation", "energy lost between facets", kCompensation},
     {"environment-specular", "reflections of the surroundings", kEnvironmentSpecular},
     {"ambient", "diffuse light of the surroundings", kAmbient},
+    {"reflection", "where reflections of probes are looked up", kReflection},
     {"occlusion", "ambient occlusion", kOcclusion},
     {"specular-occlusion", "ambient occlusion on reflections of the surroundings", kSpecularOcclusion},
     {"direct-occlusion", "ambient occlusion on the highlights of lights", kDirectOcclusion},
@@ -173,15 +180,16 @@ auto withMember(Q& q, std::size_t term, F&& f) {
     case 7: return f(q.compensation);
     case 8: return f(q.environmentSpecular);
     case 9: return f(q.ambient);
-    case 10: return f(q.occlusion);
-    case 11: return f(q.specularOcclusion);
-    case 12: return f(q.directOcclusion);
-    case 13: return f(q.anisotropy);
-    case 14: return f(q.roughDiffuse);
-    case 15: return f(q.path);
-    case 16: return f(q.shadow);
-    case 17: return f(q.antialiasing);
-    case 18: return f(q.bloom);
+    case 10: return f(q.reflection);
+    case 11: return f(q.occlusion);
+    case 12: return f(q.specularOcclusion);
+    case 13: return f(q.directOcclusion);
+    case 14: return f(q.anisotropy);
+    case 15: return f(q.roughDiffuse);
+    case 16: return f(q.path);
+    case 17: return f(q.shadow);
+    case 18: return f(q.antialiasing);
+    case 19: return f(q.bloom);
     default: return f(q.specularAntialiasing);
   }
 }
@@ -231,6 +239,7 @@ Result<void> setPreset(Quality& quality, std::string_view name) {
     q.lobe = Lobe::Pow;
     q.diffuse = Diffuse::Lambert;
     q.environmentSpecular = EnvironmentSpecular::Schlick;
+    q.reflection = Reflection::Infinite;
     q.specularOcclusion = SpecularOcclusion::Ao;
     q.directOcclusion = DirectOcclusion::Specular;
     q.anisotropy = Anisotropy::None;
@@ -243,6 +252,7 @@ Result<void> setPreset(Quality& quality, std::string_view name) {
     q.diffuse = Diffuse::OrenNayarEnergy;
     q.compensation = Compensation::MultipleScattering;
     q.environmentSpecular = EnvironmentSpecular::Sampled;
+    q.reflection = Reflection::BoxRough;
     q.shadow = Shadow::Pcss;
   } else if (name != "default") {
     return fail(std::string(name), "is no preset", fmt::format("choose one of: {}", fmt::join(kPresets, ", ")));

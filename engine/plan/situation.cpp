@@ -89,6 +89,11 @@ void addLights(const Scene& scene, const scene::LightSet& lights, Facts& facts) 
   facts.localLights = std::max(facts.localLights, int(lights.local.size()));
 }
 
+void addProbes(const Scene& scene, std::span<const scene::SeenProbe> probes, Facts& facts) {
+  for (const scene::SeenProbe& p : probes) facts.call(Call::ReflectionProbe, "reflection probe", scene.probes.reflections[p.index].name, "");
+  facts.probes = std::max(facts.probes, int(probes.size()));
+}
+
 void addShadows(const Scene& scene, const scene::ShadowSet& shadows, Facts& facts) {
   for (std::size_t i = 0; i < shadows.callers.size(); ++i) facts.call(i < shadows.suns.size() ? Call::SunShadows : Call::LocalShadows, "light", shadows.callers[i], " casts shadows");
   facts.shadowSuns = std::max(facts.shadowSuns, int(shadows.suns.size()));
@@ -131,6 +136,7 @@ void look(const Scene& scene, const scene::Derived& derived, const View& view, g
   out.batches = scene::batch(out.instances);
   out.transparent = scene::orderTransparent(scene, derived, out.frame, out.instances);
   out.lights = scene::gatherLights(scene, derived, out.frame, quality, report);
+  out.probes = scene::findProbes(scene, out.frame, report);
   out.fogDepth = scene::deepestFog(scene, derived, out.frame, out.instances, out.lights);
   scene::gatherShadows(scene, derived, out.frame, quality, out.instances, scene::Reach::InView, out.lights, report, out.shadows);
 }
@@ -141,6 +147,7 @@ void lookEverywhere(const Scene& scene, const scene::Derived& derived, const Vie
   out.batches = scene::batch(out.instances);
   out.transparent = scene::orderTransparent(scene, derived, out.frame, out.instances);
   out.lights = scene::gatherLights(scene, derived, out.frame, quality, report, scene::Reach::Everywhere);
+  out.probes = scene::findProbes(scene, out.frame, report, scene::Reach::Everywhere);
   out.fogDepth = scene::deepestFog(scene, derived, out.frame, out.instances, out.lights);
   scene::gatherShadows(scene, derived, out.frame, quality, out.instances, scene::Reach::Everywhere, out.lights, report, out.shadows);
 }
@@ -158,6 +165,7 @@ Facts factsOf(const Scene& scene, std::span<const Seen> views, const Quality& qu
     for (const scene::Batch& b : view.batches) addBatch(scene, view.instances[b.first], int(b.count), quality, allowed, facts);
     addGroups(scene, view, allowed, facts);
     addLights(scene, view.lights, facts);
+    addProbes(scene, view.probes, facts);
     if (view.fogDepth > scene::kLeastFog || (options.wholeScene && scene.fog.density > 0)) facts.why[std::size_t(Call::Fog)] = "the scene's fog";
     addShadows(scene, view.shadows, facts);
     if (!view.moved.empty()) facts.call(Call::Moving, "instance", view.instances[view.moved.front().visible].instance->name, " moves", int(view.moved.size()));
@@ -187,7 +195,7 @@ std::vector<bool> Situation::projections() const {
 }
 
 LightingVariant Situation::lighting(bool orthographic) const {
-  return {on("directional_lights") ? std::min(facts.directionalLights, MAX_DIRECTIONAL) : 0, on("environment_lighting"), on("baked_occlusion") || on("screen_occlusion"), orthographic, developsInPlace() ? int(quality.toneMap) : -1, on("fog"), on("local_lights"), {false, false}, shadows()};
+  return {on("directional_lights") ? std::min(facts.directionalLights, MAX_DIRECTIONAL) : 0, on("environment_lighting"), on("baked_occlusion") || on("screen_occlusion"), orthographic, developsInPlace() ? int(quality.toneMap) : -1, on("fog"), on("local_lights"), {false, false}, shadows(), probes()};
 }
 
 ShadowLighting Situation::shadows() const {

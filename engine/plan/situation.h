@@ -6,6 +6,7 @@
 #include <set>
 
 #include "plan/variants.h"
+#include "scene/probes.h"
 #include "scene/shadows.h"
 #include "scene/motion.h"
 #include "scene/transparency.h"
@@ -20,6 +21,7 @@ struct Seen {
   scene::LightSet lights;
   scene::ShadowSet shadows;                          ///< of the first of `lights`
   std::vector<scene::TransparentGroup> transparent;  ///< farthest first; indices into instances
+  std::vector<scene::SeenProbe> probes;              ///< smaller boxes before larger ones
   double fogDepth = 0;                               ///< no more than so much fog lies before anything in view (optical depth)
   std::vector<scene::Moved> moved;                   ///< since the frame before; filled in by whoever remembers it
 };
@@ -29,11 +31,12 @@ void look(const Scene& scene, const scene::Derived& derived, const View& view, g
 void lookEverywhere(const Scene& scene, const scene::Derived& derived, const View& view, glm::ivec2 targetSize, const Quality& quality, Report& report, Seen& out);
 
 /// What a scene holds that effects are called by.
-enum class Call : std::uint8_t { Geometry, Deformation, TwoSided, AlphaTest, BakedOcclusion, Anisotropy, RoughDiffuse, Emissive, Directional, Local, Environment, Background, AlphaBlend, Glass, Fog, SunDisc, SunShadows, LocalShadows, Moving, Count };
+enum class Call : std::uint8_t { Geometry, Deformation, TwoSided, AlphaTest, BakedOcclusion, Anisotropy, RoughDiffuse, Emissive, Directional, Local, Environment, Background, AlphaBlend, Glass, Fog, SunDisc, SunShadows, LocalShadows, Moving, ReflectionProbe, Count };
 struct Facts {
   std::array<std::string, std::size_t(Call::Count)> why;  ///< the first thing that calls; empty: nothing does
   std::array<int, std::size_t(Call::Count)> objects{};    ///< how many call, instances or lights, counted once a view
   int directionalLights = 0, localLights = 0;              ///< of the view that has most
+  int probes = 0;                                          ///< reflection probes, likewise
   bool spots = false;
   int shadowSuns = 0;                            ///< directional lights with shadows, of the view that has most
   std::set<std::uint64_t> sunMaps, localMaps;    ///< shadow maps of all views: their contents
@@ -69,7 +72,9 @@ struct Situation {
   [[nodiscard]] bool viewsLights() const { return options.debugView == DebugView::Lights; }
   /// There is a depth buffer: instances or the host's depth are in it.
   [[nodiscard]] bool hasDepth() const { return on("geometry") || options.hostDepthIn; }
-  [[nodiscard]] bool lit() const { return on("directional_lights") || on("local_lights") || on("environment_lighting"); }
+  [[nodiscard]] bool lit() const { return on("directional_lights") || on("local_lights") || on("environment_lighting") || on("reflection_probes"); }
+  /// Lighting looks captured places up.
+  [[nodiscard]] bool probes() const { return on("reflection_probes") && facts.probes > 0; }
   /// Lighting writes what the display takes straight into the target: no effect needs the light buffer. Asked once all effects are judged.
   [[nodiscard]] bool developsInPlace() const;
   /// Fog is lit by suns or surroundings, so that it shows before an empty background too.

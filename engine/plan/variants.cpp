@@ -119,10 +119,10 @@ ProgramPlan emissiveProgram(GeometryVariant variant, const Quality& quality, con
   return p;
 }
 
-bool needsDfg(const Quality& q, bool environment) {
-  return shading::needsAlbedoTable(rungsOf(q)) || (environment && (q.environmentSpecular == EnvironmentSpecular::Dfg || q.environmentSpecular == EnvironmentSpecular::Sampled));
+bool needsDfg(const Quality& q, bool surroundings) {
+  return shading::needsAlbedoTable(rungsOf(q)) || (surroundings && (q.environmentSpecular == EnvironmentSpecular::Dfg || q.environmentSpecular == EnvironmentSpecular::Sampled));
 }
-bool needsCube(const Quality& q, bool environment) { return environment && q.environmentSpecular != EnvironmentSpecular::None; }
+bool needsCube(const Quality& q, bool lights) { return lights && q.environmentSpecular != EnvironmentSpecular::None; }
 
 namespace {
 
@@ -131,7 +131,7 @@ namespace {
 std::vector<std::string> shadeDefines(const Quality& q, const LightingVariant& lighting, bool locals) {
   const bool shadows = lighting.shadows.suns > 0 || locals;
   const shading::Rungs k = rungsOf(q);
-  const bool dfg = needsDfg(q, lighting.environment);
+  const bool dfg = needsDfg(q, lighting.surroundings());
   const prefilter::DfgTable table = dfg ? prefilter::dfgTable(prefilter::dfgIndex(k)) : prefilter::DfgTable{};
   return {define("DFG", dfg),
           define("DFG_HEIGHT", table.height),
@@ -141,18 +141,20 @@ std::vector<std::string> shadeDefines(const Quality& q, const LightingVariant& l
           define("FOG", lighting.fog),
           define("FOG_AMBIENT", fogAmbient(q, lighting)),
           define("ORTHOGRAPHIC", lighting.orthographic),
-          define("RUNG_AMBIENT", lighting.environment ? int(q.ambient) : 0),
+          define("PROBES", lighting.probes),
+          define("RUNG_AMBIENT", lighting.surroundings() ? int(q.ambient) : 0),
           define("RUNG_COMPENSATION", k.compensation),
           define("RUNG_DIFFUSE", k.diffuse),
           define("RUNG_DIRECT_OCCLUSION", lighting.occlusion ? int(q.directOcclusion) : 0),
           define("RUNG_DISTRIBUTION", k.distribution),
-          define("RUNG_ENVIRONMENT_SPECULAR", lighting.environment ? int(q.environmentSpecular) : 0),
+          define("RUNG_ENVIRONMENT_SPECULAR", lighting.surroundings() ? int(q.environmentSpecular) : 0),
           define("RUNG_FRESNEL", k.fresnel),
           define("RUNG_GEOMETRY", k.geometry),
           define("RUNG_LOBE", k.lobe),
           define("RUNG_NORMALIZATION", k.normalization),
+          define("RUNG_REFLECTION", lighting.probes && q.environmentSpecular != EnvironmentSpecular::None ? int(q.reflection) : 0),
           define("RUNG_SPECULAR", k.specular),
-          define("RUNG_SPECULAR_OCCLUSION", lighting.occlusion && lighting.environment ? int(q.specularOcclusion) : 0),
+          define("RUNG_SPECULAR_OCCLUSION", lighting.occlusion && lighting.surroundings() ? int(q.specularOcclusion) : 0),
           define("SHADOW", shadows ? int(lighting.shadows.rung) : 0),
           define("SHADOW_LOCALS", locals),
           define("SHADOW_SUNS", lighting.shadows.suns)};
@@ -187,7 +189,7 @@ ProgramPlan transparentProgram(const TransparentVariant& v, const Quality& quali
   p.defines.push_back(define("EMISSION", v.emits));
   p.defines.push_back(define("FAINT", v.faint));
   p.defines.push_back(define("THROUGH", int(v.through)));
-  if (v.through == Through::Refract) p.defines.push_back(define("UNLIT_AROUND", !lighting.environment && needsCube(quality, true)));
+  if (v.through == Through::Refract) p.defines.push_back(define("UNLIT_AROUND", !lighting.surroundings() && needsCube(quality, true)));
   std::sort(p.defines.begin(), p.defines.end());
   if (v.coverage) p.name += "+coverage";
   if (v.emits) p.name += "+emissive";

@@ -99,15 +99,17 @@ struct LightingVariant {
   Details details{false, false};  ///< of what the program's tiles may show
   [[nodiscard]] bool detail() const { return details.brushed || details.rough; }
   ShadowLighting shadows{};
+  bool probes = false;        ///< captured places light the scene
+  [[nodiscard]] bool surroundings() const { return environment || probes; }
 };
 /// Fog is there and lit by the surroundings.
 bool fogAmbient(const Quality& quality, const LightingVariant& lighting);
 /// What emits, through the fog if there is any.
 ProgramPlan emissiveProgram(GeometryVariant variant, const Quality& quality, const LightingVariant& lighting);
-/// The lobe's table (prefilter/dfg.h) is read.
-bool needsDfg(const Quality& quality, bool environment);
-/// The prefiltered cube is read.
-bool needsCube(const Quality& quality, bool environment);
+/// The lobe's table (prefilter/dfg.h) is read. surroundings: the sky or captured places light the scene.
+bool needsDfg(const Quality& quality, bool surroundings);
+/// The prefiltered cube, of the sky or of captured places, is read where that lights the scene.
+bool needsCube(const Quality& quality, bool lights);
 
 /// Sizes of the unrolled lighting programs (10 lights, rays and irradiance fill 30 of 32 varyings): a tile's list is padded to the next one; longer lists are looped over.
 inline constexpr int kTileBuckets[] = {0, 1, 2, 3, 4, 6, 8, 10};

@@ -25,7 +25,7 @@ class History {
  private:
   /// What a picture is made of, but for the views. Whatever a scene is given beside its tables belongs in here: an animated picture that is taken for a still one smears.
   struct Stamp {
-    std::uint64_t scene = 0, nodes = 0, meshes = 0, textures = 0, materials = 0, instances = 0, lights = 0, skins = 0, environment = 0;
+    std::uint64_t scene = 0, nodes = 0, meshes = 0, textures = 0, materials = 0, instances = 0, lights = 0, skins = 0, probes = 0, environment = 0;
     glm::vec3 color{0};
     float scale = 0;
     std::array<float, 8> fog{}, sun{};

@@ -32,15 +32,25 @@ gl::Timing timingOf(TimingMode mode) { return mode == TimingMode::Async ? gl::Ti
 float exposureOf(float ev) { return 1.0f / (1.2f * std::exp2(std::clamp(ev, -30.0f, 40.0f))); }
 
 /// Where the light buffer's range is centred when the exposure is automatic: a rough guess is enough, half floats have nine decades to spare.
-float guessedExposure(const scene::LightSet& lights, const gpu_scene::GpuEnvironment* environment, float scale) {
+float guessedExposure(const scene::LightSet& lights, const gpu_scene::GpuEnvironment* environment, float scale, float places) {
   constexpr glm::vec3 kLuminance(0.2126f, 0.7152f, 0.0722f);
-  float luminance = environment ? environment->meanLuminance * scale : 0;
+  float luminance = std::max(environment ? environment->meanLuminance * scale : 0, places);
   for (const scene::DirectionalLight& l : lights.directional) luminance += glm::dot(l.illuminance, kLuminance) * 0.06f;
   float brightest = 0;
   for (const scene::LocalLight& l : lights.local) brightest = std::max(brightest, glm::dot(l.intensity, kLuminance) * 0.02f);
   luminance += brightest;
   if (!(luminance > 0) || !std::isfinite(luminance)) return 1;
   return exposureOf(std::log2(luminance * 8));
+}
+
+/// Luminance of the brightest captured place in view, on the mean.
+float brightestPlace(const Scene& scene, std::span<const scene::SeenProbe> probes) {
+  double brightest = 0;
+  for (const scene::SeenProbe& p : probes) {
+    const std::array<double, 3>& mean = scene.probes.reflections[p.index].irradiance[0];
+    brightest = std::max(brightest, 0.2126 * mean[0] + 0.7152 * mean[1] + 0.0722 * mean[2]);
+  }
+  return std::isfinite(brightest) ? float(brightest) : 0.0f;
 }
 
 /// What of the settings is out of range, and what the passes use instead.
@@ -190,14 +200,22 @@ Result<void> Renderer::Impl::renderView(SceneState& state, const Scene& scene, p
     if (!found) return fail(found.error());
     environment = *found;
   }
+  const gpu_scene::GpuProbes* probeLight = nullptr;
+  if (plan::reads(plan, "probe cubes")) {
+    auto found = state.gpu.probes(scene, report);
+    if (!found) return fail(found.error());
+    probeLight = *found;
+  }
   FrameContext c{.device = *device, .plan = plan, .programs = *programSet, .targets = *targets, .gpuScene = state.gpu, .buffers = buffers, .scene = scene, .quality = quality, .view = view.frame,
-                 .visible = view.instances, .batches = view.batches, .lights = view.lights, .transparent = view.transparent, .shadows = &view.shadows, .environment = environment, .size = target.size, .output = target.framebuffer, .past = past, .moved = view.moved, .report = report, .stats = stats};
+                 .visible = view.instances, .batches = view.batches, .lights = view.lights, .transparent = view.transparent, .shadows = &view.shadows, .environment = environment, .probes = view.probes, .probeLight = probeLight, .size = target.size, .output = target.framebuffer, .past = past, .moved = view.moved, .report = report, .stats = stats};
   const float display = quality.exposureEv ? exposureOf(*quality.exposureEv) : 1;
-  if (request.output == Output::Display) c.preExposure = quality.exposureEv ? display : guessedExposure(view.lights, environment, scene.environment.scale);
+  if (request.output == Output::Display) c.preExposure = quality.exposureEv ? display : guessedExposure(view.lights, environment, scene.environment.scale, brightestPlace(scene, view.probes));
   preExposure = c.preExposure;
   if (auto done = gpu_scene::uploadFrameData(c, display); !done) return done;
   if (drawsInstances(plan))
     if (auto done = gpu_scene::uploadDraws(c); !done) return done;
+  if (plan::reads(plan, "probe records"))
+    if (auto done = gpu_scene::uploadProbeRecords(c); !done) return done;
   stats.lightsInView += int(view.lights.directional.size());
   PassCall call{c, *modules, target, request};
   for (const PassPlan& pass : plan.passes)
@@ -256,6 +274,7 @@ Result<FrameStats> Renderer::render(const Scene& scene, std::span<const View> vi
   for (plan::Seen& seen : m.seen) {
     if (!m.plan.on("directional_lights")) seen.lights.directional.clear();
     if (!m.plan.on("local_lights")) seen.lights.local.clear();
+    if (!m.plan.on("reflection_probes")) seen.probes.clear();
     if (!m.plan.on("shadows")) seen.shadows = {};
     if (!m.plan.on("directional_lights")) scene::dropShadows(seen.shadows, true);
     if (!m.plan.on("local_lights")) scene::dropShadows(seen.shadows, false);

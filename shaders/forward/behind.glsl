@@ -98,7 +98,8 @@ float footprintOf(Meeting m, vec3 leaves, vec3 direction, float perPixel) {
 }
 
 // inside: the eye sees the far side's back: light enters there. Pre-exposed radiance, absorption taken off.
-vec3 behind(vec3 p, vec3 toEye, Surface m, float eta, float thickness, bool inside) {
+vec3 behind(Place at, vec3 toEye, Surface m, float eta, float thickness, bool inside) {
+  vec3 p = at.p;
   vec3 way = vec3(0.0), direction = -m.v;
   float path = 0.0, roundness = roundnessHere(p, thickness), perPixel = length(frame.rayX.xyz);
   if (inside) {
@@ -115,24 +116,25 @@ vec3 behind(vec3 p, vec3 toEye, Surface m, float eta, float thickness, bool insi
   blur *= met.way + path;
 #endif
   // Exact places jump at every edge of the depth buffer: blurred lookups take the first guess.
-  vec2 at = met.at + (met.first - met.at) * unitClamp((blur - 4.0) * 0.125);
+  vec2 place = met.at + (met.first - met.at) * unitClamp((blur - 4.0) * 0.125);
   // Thin panes shift nothing.
   if (thickness <= 0.0) {
-    at = gl_FragCoord.xy - vec2(frame.viewport.xy);
+    place = gl_FragCoord.xy - vec2(frame.viewport.xy);
     met.gone = false;
     footprint = 1.0;
   }
-  vec2 size = vec2(frame.viewport.zw), beyond = max(max(-at, at - size), vec2(0.0)) / size;  // model: 0 inside the picture
+  vec2 size = vec2(frame.viewport.zw), beyond = max(max(-place, place - size), vec2(0.0)) / size;  // model: 0 inside the picture
   float outside = met.gone ? 1.0 : unitClamp(max(beyond.x, beyond.y) / max(0.05, 4.0 * blur / size.y));  // model: the surroundings take over within a twentieth of the picture, or within what is blurred
   float last = float(textureQueryLevels(sceneColor) - 1);
-  vec3 seen = pictureAt(behindHere(at), min(levelOf(blur, footprint), last));  // model: the pyramid ends
-#if ENVIRONMENT && RUNG_ENVIRONMENT_SPECULAR != ENVIRONMENT_SPECULAR_NONE
+  vec3 seen = pictureAt(behindHere(place), min(levelOf(blur, footprint), last));  // model: the pyramid ends
+#if SURROUNDINGS && RUNG_ENVIRONMENT_SPECULAR != ENVIRONMENT_SPECULAR_NONE
   if (outside > 0.0) {
-    vec3 around = textureLod(environmentCube, direction, environmentLevel(sqrt(scatteredAlpha(m.alpha, eta)), lastLevel())).rgb * frame.background.w;
+    at.p = leaves;  // shared as at the surface, looked up from where the ray leaves
+    vec3 around = radianceAt(at, direction, sqrt(scatteredAlpha(m.alpha, eta)));
 #if FOG
-    // Fog to the end of the world, then as if it were seen here.
+    // Before the sky: fog to the end of the world. Then as if it were seen here.
     float beyondFog = fogDepth(frame.fog.z + p.y, frame.fog.z + p.y + direction.y * BURNISH_FOG_FAR, BURNISH_FOG_FAR, 0.0, frame.fog.x, frame.fog.y);
-    around = fogged(around * fogThrough(beyondFog) + fogSource(direction) * fogTaken(beyondFog), p, toEye);
+    around = fogged(around + (fogSource(direction) - around) * (fogTaken(beyondFog) * skyAt(at)), p, toEye);
 #endif
     seen += (around - seen) * outside;
   }

@@ -11,8 +11,8 @@ void main() {
   Surface m = surfaceHere(f, toEye);
   float row = findEnergy(m);
   vec3 sum = litByLights(m, p, row, f.occlusion);
-#if ENVIRONMENT
-  sum += surroundings(m, f.occlusion);
+#if SURROUNDINGS
+  sum += surroundings(m, placeAt(p), f.occlusion);
 #endif
 #if FOG
   sum = fogged(sum, p, toEye);

@@ -11,13 +11,36 @@ layout(std140, binding = BINDING_FRAME) uniform Frame { FrameData frame; };
 layout(binding = UNIT_LIGHTS) uniform samplerBuffer lights;
 #endif
 #if ENVIRONMENT
-vec3 ambientAt(vec3 n) {
+vec3 skyAmbientAt(vec3 n) {
   return irradianceSh(n, frame.irradiance[0].rgb, frame.irradiance[1].rgb, frame.irradiance[2].rgb, frame.irradiance[3].rgb, frame.irradiance[4].rgb, frame.irradiance[5].rgb,
                       frame.irradiance[6].rgb, frame.irradiance[7].rgb, frame.irradiance[8].rgb, RUNG_AMBIENT);
 }
 float lastLevel() { return frame.environment.x; }
 #endif
+#if PROBES
+void probesNear(vec3 p, out int list[MAX_TILE_PROBES]);
+#endif
 #include "lighting/shade.glsl"
+#if PROBES
+// Of all that are in view: the boxes that p lies in, or those within whose margins it lies. What tiles do to the boxes that meet them.
+void probesNear(vec3 p, out int list[MAX_TILE_PROBES]) {
+  list = int[MAX_TILE_PROBES](-1, -1, -1, -1);
+  int count = 0;
+  bool inside = false;
+  float slack = BURNISH_PROBE_SLACK * sqrt(dot(p, p));
+  for (int i = 0; i < int(frame.probes.x); ++i) {
+    vec4 extent = texelFetch(probeRecords, i * PROBE_TEXELS + 3);
+    float away = probeDistance(inBox(i * PROBE_TEXELS, p), extent.xyz + slack);
+    bool first = away <= 0.0 && !inside;
+    if (first) list = int[MAX_TILE_PROBES](-1, -1, -1, -1);
+    if (first) count = 0;
+    inside = inside || first;
+    if (count == MAX_TILE_PROBES || (inside ? away > 0.0 : away >= extent.w)) continue;
+    list[count] = i;
+    ++count;
+  }
+}
+#endif
 #if FOG
 #include "interface/fog.glsl"
 #endif

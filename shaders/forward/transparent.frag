@@ -38,10 +38,10 @@ vec3 reflectedShare(Surface m) {
 }
 
 // Light of lights and surroundings. seen: the surface as preintegrated reflections take it.
-vec3 lit(Surface m, Surface seen, vec3 p, float row, float occlusion) {
-  vec3 sum = litByLights(m, p, row, occlusion);
-#if ENVIRONMENT
-  sum += surroundings(seen, occlusion);
+vec3 lit(Surface m, Surface seen, Place at, float row, float occlusion) {
+  vec3 sum = litByLights(m, at.p, row, occlusion);
+#if SURROUNDINGS
+  sum += surroundings(seen, at, occlusion);
 #endif
   return sum;
 }
@@ -75,12 +75,13 @@ void main() {
 #if THROUGH != THROUGH_BLEND && RUNG_ENVIRONMENT_SPECULAR != ENVIRONMENT_SPECULAR_SAMPLED
   seen.f0 = vec3(schlickF0(m.f0.x, m.nov, RUNG_FRESNEL), schlickF0(m.f0.y, m.nov, RUNG_FRESNEL), schlickF0(m.f0.z, m.nov, RUNG_FRESNEL));
 #endif
-  vec3 sum = lit(m, seen, p, row, f.occlusion) * reflects;
+  Place at = placeAt(p);
+  vec3 sum = lit(m, seen, at, row, f.occlusion) * reflects;
 #if FAINT
   // Diffuse light is what is left when reflections are taken away.
   Surface bare = m, bareSeen = seen;
   bare.diffuse = bareSeen.diffuse = vec3(0.0);
-  sum += (lit(m, seen, p, row, f.occlusion) - lit(bare, bareSeen, p, row, f.occlusion)) * (1.0 - reflects);
+  sum += (lit(m, seen, at, row, f.occlusion) - lit(bare, bareSeen, at, row, f.occlusion)) * (1.0 - reflects);
 #endif
 #if DFG
   vec3 share = vec3(1.0) - reflectedShare(seen) * reflects;
@@ -104,7 +105,7 @@ void main() {
   sum = sum * fogThrough(depth) + fogSource(-toEye) * (vec3(1.0) - through) * fogTaken(depth);
 #endif
 #if THROUGH == THROUGH_REFRACT
-  sum += through * behind(p, toEye, m, eta, thickness, inside);
+  sum += through * behind(at, toEye, m, eta, thickness, inside);
   through = vec3(0.0);
 #endif
   outRadiance = vec4(limitRadiance(sum, frame.exposure.w) * coverage, 1.0);

@@ -41,6 +41,8 @@
 #define UNIT_OCCLUSION 0  // what the denoise pass reads
 #define UNIT_SCENE_COLOR 7  // of the pass that draws transparent surfaces, which reads no light lists
 #define UNIT_SCENE_DEPTH 9  // and no exposure
+#define UNIT_PROBE_CUBES 10   // light of captured places
+#define UNIT_PROBES 11        // and their records
 #define UNIT_SHADOW 14        // shadow maps, compared
 #define UNIT_SHADOW_DEPTH 15  // and as depths
 #define UNIT_HISTORY 0
@@ -76,6 +78,7 @@ struct FrameData {
   vec4 fog;              // x extinction (1/m) at the reference height, y its falloff (1/m), z height of the eye above that (m), w metres that are clear
   vec4 fogLight[5];      // pre-exposed radiance that fog shows: constant, along y, z, x; rgb albedo, w mean cosine of its scattering
   vec4 sun[2];           // xyz unit direction to the sun's disc, w its radius (radians); pre-exposed rgb radiance, w sine of the elevation under which it is hidden
+  vec4 probes;           // x reflection probes in view; y last level of their cubes; z what their texels are multiplied by: pre-exposed radiance
   vec4 directional[2 * MAX_DIRECTIONAL];  // xyz unit direction to the light; rgb pre-exposed lux
 };
 
@@ -96,6 +99,11 @@ struct MaterialData {
   vec4 glass;         // x transmission, y thickness (m, of the mesh), z index of refraction (0: from F0), w 1 when blended
   vec4 attenuation;   // rgb absorption inside, 1/m; w sigma of rough diffuse, radians
 };
+
+// A reflection probe's record, PROBE_TEXELS texels of a buffer, smaller boxes before larger ones:
+//   0 to 2: rows from camera-relative world to the box's axes, relative to its middle
+//   3: half sizes (m), w margin (m); 4: fades (m, at most the half sizes), w its cube in the array; 5: the capture's place in those axes
+//   6 to 14: pre-exposed irradiance/pi, as FrameData::irradiance
 
 // Directional lights' shadows. Those of point and spot lights are records of SHADOW_TEXELS texels behind the lights in their buffer:
 //   0: x 1 with a cube of maps, else 0; y and z: depth in the map = y / w - z, w the distance along the map's axis (m); w: the map's half side at 1 m

@@ -4,6 +4,9 @@
 #define MAX_DIRECTIONAL 8
 #define LIGHT_TEXELS 4
 #define TILE_SIZE 16
+#define MAX_TILE_PROBES 4     // reflection probes that light a tile, and a pixel
+#define PROBE_TEXELS 15       // of a reflection probe's record
+#define MAX_PROBES 341        // reflection probes of a scene: six layers each in an array of 2048, which every device has
 #define MAX_CASCADES 4
 #define MAX_SHADOW_SUNS 4
 #define SHADOW_TEXELS 10      // of a point or spot light's shadow record

@@ -1,7 +1,7 @@
 // Shading one surface with the rungs in force: what the deferred and the forward path share. The includer has included shading/bridge.h, shading/all.h and interface/layout.h and
-// declared `frame`; it defines ambientAt(normal) and lastLevel() before this file where ENVIRONMENT is 1.
-// Definitions: RUNG_* (plan/variants.cpp), ANISOTROPIC (1: surfaces may have two widths), ROUGH_DIFFUSE (1: and a diffuse roughness of their own), DFG (1: the lobe's table is bound), DFG_WIDTH, DFG_HEIGHT, ENVIRONMENT (1: lit by the surroundings), OCCLUSION,
-// ENVIRONMENT_UNIT.
+// declared `frame`; it defines what lighting/around.glsl asks for before this file.
+// Definitions: RUNG_* (plan/variants.cpp), ANISOTROPIC (1: surfaces may have two widths), ROUGH_DIFFUSE (1: and a diffuse roughness of their own), DFG (1: the lobe's table is bound), DFG_WIDTH, DFG_HEIGHT, OCCLUSION and those of
+// lighting/around.glsl.
 
 const Rungs kRungs = Rungs(RUNG_SPECULAR, RUNG_DISTRIBUTION, RUNG_GEOMETRY, RUNG_NORMALIZATION, RUNG_LOBE, RUNG_FRESNEL, RUNG_DIFFUSE, RUNG_COMPENSATION, ANISOTROPIC, ROUGH_DIFFUSE);
 
@@ -9,9 +9,7 @@ const Rungs kRungs = Rungs(RUNG_SPECULAR, RUNG_DISTRIBUTION, RUNG_GEOMETRY, RUNG
 layout(binding = UNIT_DFG) uniform sampler2D dfgTable;
 #define DFG_SIZE vec2(DFG_WIDTH, DFG_HEIGHT)
 #endif
-#if ENVIRONMENT && RUNG_ENVIRONMENT_SPECULAR != ENVIRONMENT_SPECULAR_NONE
-layout(binding = ENVIRONMENT_UNIT) uniform samplerCube environmentCube;
-#endif
+#include "lighting/around.glsl"
 
 // Looks up what the surface's lobe reflects toward the eye and on the mean. Returns the table's row.
 float findEnergy(inout Surface m) {
@@ -55,12 +53,12 @@ float inCone(vec3 p, vec4 place, vec4 axis, float offset) {
   return spotAttenuation(dot(axis.xyz, toPoint) * inversesqrt(max(dot(toPoint, toPoint), BURNISH_GUARD_DISTANCE2)), axis.w, offset);
 }
 
-#if ENVIRONMENT
+#if SURROUNDINGS
 #if RUNG_ENVIRONMENT_SPECULAR == ENVIRONMENT_SPECULAR_SAMPLED
 #define SAMPLES 256
 // The lobe in force, sampled (Hammersley's points). Each sample reads the level whose lobe has the solid angle that the sample stands for, 1/(density · count), so that few do:
 // it adds 1/SAMPLES to the lobe's variance (Krivanek and Colbert 2008, "Real-time Shading with Filtered Importance Sampling").
-vec3 sampledReflection(Surface m) {
+vec3 sampledReflection(Surface m, Place at) {
   vec3 sum = vec3(0.0), t, b;
   int family = lobeFamily(kRungs);
   bool phong = family == LOBE_FAMILY_PHONG;
@@ -81,18 +79,16 @@ vec3 sampledReflection(Surface m) {
     float density = twoWidths ? twoWidthsDensity(h, m.alphaX, m.alphaY, family) : lobeDensity(sin2, m.alpha, family);
     if (!phong) density /= 4.0 * max(voh, BURNISH_GUARD_NOV);
     Angles a = anglesOf(m, l);
-    float level = environmentLevel(min(sqrt(sqrt(1.0 / (4.0 * BURNISH_PI * float(SAMPLES) * max(density, BURNISH_GUARD_VISIBILITY)))), 1.0), lastLevel());
-    sum += textureLod(environmentCube, l, level).rgb * fresnelRung(m.f0, m.eta, m.k, a.loh, RUNG_FRESNEL) * (specularRung(m, a, kRungs) / max(density, BURNISH_GUARD_VISIBILITY));
+    float roughness = min(sqrt(sqrt(1.0 / (4.0 * BURNISH_PI * float(SAMPLES) * max(density, BURNISH_GUARD_VISIBILITY)))), 1.0);
+    sum += radianceAt(at, l, roughness) * fresnelRung(m.f0, m.eta, m.k, a.loh, RUNG_FRESNEL) * (specularRung(m, a, kRungs) / max(density, BURNISH_GUARD_VISIBILITY));
   }
-  return sum * (frame.background.w / float(SAMPLES));
+  return sum / float(SAMPLES);
 }
 #endif
 
 #if RUNG_ENVIRONMENT_SPECULAR != ENVIRONMENT_SPECULAR_NONE && RUNG_ENVIRONMENT_SPECULAR != ENVIRONMENT_SPECULAR_SAMPLED
-vec3 prefiltered(vec3 r, float alpha) { return textureLod(environmentCube, r, environmentLevel(sqrt(alpha), lastLevel())).rgb; }
-
 // The prefiltered surroundings where the surface mirrors them. A lobe with two widths is the round one of the narrow width, spread along the tangent.
-vec3 mirrored(Surface m) {
+vec3 mirrored(Surface m, Place at) {
 #if ANISOTROPIC
   if (hasTwoWidths(kRungs)) {
     vec3 sum = vec3(0.0);
@@ -100,25 +96,25 @@ vec3 mirrored(Surface m) {
     for (int i = 0; i < BRUSHED_TAPS; ++i) {
       vec3 l = brushedDirection(m, brushedNode(i));
       float weight = max(dot(m.n, l), BURNISH_GUARD_NOV);
-      sum += prefiltered(l, brushedAlpha(m)) * weight;
+      sum += radianceAt(at, l, sqrt(brushedAlpha(m))) * weight;
       total += weight;
     }
     return sum / total;
   }
 #endif
-  return prefiltered(m.n * (2.0 * m.nov) - m.v, m.alpha);
+  return radianceAt(at, m.n * (2.0 * m.nov) - m.v, sqrt(m.alpha));
 }
 #endif
 
 // What the surface reflects of the surroundings.
-vec3 surroundings(Surface m, float occlusion) {
-  vec3 ambient = max(ambientAt(m.n), vec3(0.0));  // model: three bands of harmonics ring below 0
+vec3 surroundings(Surface m, Place at, float occlusion) {
+  vec3 ambient = ambientAt(at, m.n);
 #if RUNG_ENVIRONMENT_SPECULAR == ENVIRONMENT_SPECULAR_NONE
   vec3 specular = vec3(0.0);
 #elif RUNG_ENVIRONMENT_SPECULAR == ENVIRONMENT_SPECULAR_SAMPLED
-  vec3 specular = sampledReflection(m);
+  vec3 specular = sampledReflection(m, at);
 #else
-  vec3 specular = mirrored(m) * frame.background.w * environmentReflectance(m, RUNG_ENVIRONMENT_SPECULAR, RUNG_FRESNEL);
+  vec3 specular = mirrored(m, at) * environmentReflectance(m, RUNG_ENVIRONMENT_SPECULAR, RUNG_FRESNEL);
 #endif
 #if OCCLUSION
   specular *= specularOcclusion(max(m.nov, BURNISH_GUARD_NOV), occlusion, m.alpha, RUNG_SPECULAR_OCCLUSION);

@@ -19,11 +19,15 @@
 layout(location = 0) flat in vec4 ray[3];
 #if ENVIRONMENT
 layout(location = 3) flat in vec4 irradiance[7];
-vec3 ambientAt(vec3 n) {
+vec3 skyAmbientAt(vec3 n) {
   return irradianceSh(n, irradiance[0].rgb, vec3(irradiance[0].a, irradiance[1].rg), vec3(irradiance[1].ba, irradiance[2].r), irradiance[2].gba, irradiance[3].rgb,
                       vec3(irradiance[3].a, irradiance[4].rg), vec3(irradiance[4].ba, irradiance[5].r), irradiance[5].gba, irradiance[6].rgb, RUNG_AMBIENT);
 }
 float lastLevel() { return irradiance[6].a; }
+#endif
+#if PROBES
+layout(location = 30) flat in ivec4 tileProbes;
+void probesNear(vec3 p, out int list[MAX_TILE_PROBES]) { list = int[MAX_TILE_PROBES](tileProbes.x, tileProbes.y, tileProbes.z, tileProbes.w); }
 #endif
 #include "lighting/shade.glsl"
 #if TILE_LIGHTS > 0
@@ -85,8 +89,8 @@ void main() {
     sum += one;
   }
 #endif
-#if ENVIRONMENT
-  sum += surroundings(m, occlusion);
+#if SURROUNDINGS
+  sum += surroundings(m, placeAt(p), occlusion);
 #endif
 #if FOG
   sum = fogged(sum, p, toEye);

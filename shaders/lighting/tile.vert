@@ -1,6 +1,6 @@
 // One point a tile of 16 x 16 pixels; the tile's lights travel to its fragments in flat varyings.
 // So do the pixel rays and the coefficients of irradiance: a software renderer reads a flat varying for less than a uniform (27 of them cost it 7 ms at 1280x720).
-// Definitions: ENVIRONMENT, TILE_LIGHTS (lights of each tile of this group; 0: none; -1: any number, looped over in the fragment shader; -2: with spots
+// Definitions: ENVIRONMENT, PROBES, TILE_LIGHTS (lights of each tile of this group; 0: none; -1: any number, looped over in the fragment shader; -2: with spots
 // among them; -3: with lights among them that cast shadows, which come first).
 #include "interface/layout.h"
 layout(std140, binding = BINDING_FRAME) uniform Frame { FrameData frame; };
@@ -8,6 +8,10 @@ layout(binding = UNIT_LIGHTS) uniform samplerBuffer lights;
 layout(binding = UNIT_LIGHT_LISTS) uniform usamplerBuffer lightLists;
 
 layout(location = 0) in ivec4 tile;  // x, y (tiles, from the viewport's corner), first entry in the lists, number of lights
+#if PROBES
+layout(location = 1) in ivec4 probes;  // records that may light it, smaller boxes before larger ones; -1 where the list ends
+layout(location = 30) flat out ivec4 tileProbes;
+#endif
 
 layout(location = 0) flat out vec4 ray[3];  // origin (of the window's pixel 0), x, y; w: depthParams.x, depthParams.y, the light buffer's limit
 #if ENVIRONMENT
@@ -36,6 +40,9 @@ void main() {
   irradiance[4] = vec4(frame.irradiance[5].gb, frame.irradiance[6].rg);
   irradiance[5] = vec4(frame.irradiance[6].b, frame.irradiance[7].rgb);
   irradiance[6] = vec4(frame.irradiance[8].rgb, frame.environment.x);
+#endif
+#if PROBES
+  tileProbes = probes;
 #endif
 #if TILE_LIGHTS > 0
   for (int i = 0; i < TILE_LIGHTS; ++i) {

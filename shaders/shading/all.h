@@ -16,3 +16,4 @@
 #include "shading/history.h"
 #include "shading/transmission.h"
 #include "shading/fog.h"
+#include "shading/probes.h"

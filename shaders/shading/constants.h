@@ -6,6 +6,9 @@
 // Mean square error of the 24-bit octahedral normal, rad² (shading/normals.h; 2 million random unit vectors).
 #define BURNISH_NORMAL_VARIANCE R(1.61e-7)
 
+// Positions that are rebuilt from depth lie within this share of their distance from the eye: probes' boxes reach so much farther (shading/probes.h).
+#define BURNISH_PROBE_SLACK R(1e-5)
+
 // Perceptual roughness where it enters the G-buffer; its square is the next guard.
 #define BURNISH_ROUGHNESS_MIN R(0.02)
 

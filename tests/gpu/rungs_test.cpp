@@ -49,6 +49,9 @@ Errors errorsOf(const Row& row, std::span<const Case> cases, std::span<const glm
 
 /// Rungs that are no function of numbers, and what tests them.
 const std::map<std::string, const char*> kElsewhere = {
+    {"reflection=infinite", "the direction as it is"},
+    {"reflection=box", "its functions are held against ray-box in double, through GLSL too (tests/probe)"},
+    {"reflection=box-rough", "its functions are held against ray-box in double, through GLSL too (tests/probe)"},
     {"occlusion=none", "a texture that is read or not (tests/render)"},
     {"occlusion=baked", "a texture that is read or not (tests/render)"},
     {"occlusion=screen-4", "passes (tests/render); their functions have rows"},

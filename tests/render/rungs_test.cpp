@@ -16,7 +16,7 @@ constexpr glm::ivec2 kSize{96, 72};
 /// What every term has an effect on: gold with tangents and baked occlusion, plastic, a narrow lobe; a light and uneven surroundings. With details the gold is brushed and the plastic rough:
 /// each of the two doubles the lighting programs.
 struct Exhibition : Workshop {
-  explicit Exhibition(bool details = false) {
+  explicit Exhibition(bool details = false, bool captured = false) {
     std::vector<Id<Instance>> all;
     scene.instances.each([&](Id<Instance> id, const Instance&) { all.push_back(id); });
     for (Id<Instance> id : all) scene.instances.remove(id);
@@ -52,6 +52,24 @@ struct Exhibition : Workshop {
       for (int x = 0; x < 32; ++x)
         for (int c = 0; c < 3; ++c) map.f32()[(y * 32 + x) * 3 + c] = float(2 + 1.5 * std::cos(0.4 * (x - 5)) + (y < 8 ? 3 - c : 0.3 * c));
     ++scene.environment.revision;
+    if (captured) addPlace();
+  }
+  // A place around all of it, captured off its middle: bright toward +x, in each level as wide as its roughness.
+  void addPlace() {
+    CubeLevel level;
+    level.size = 32;
+    for (int face = 0; face < 6; ++face)
+      for (int i = 0; i < 32 * 32; ++i)
+        for (int c = 0; c < 3; ++c) level.texels.push_back(face == 0 && (i / 4 + i / 128) % 2 ? 9.0f : 0.5f * float(1 + (face + c) % 3));
+    ReflectionProbe p;
+    auto cube = prefilterCubemap(level, {.size = 32});
+    REQUIRE(cube);
+    p.radiance = std::move(*cube);
+    p.irradiance[0] = {1, 1, 1};
+    p.halfSize = {2.5, 1.5, 2};
+    p.capture = {-1.2, 0.4, 0.7};
+    scene.probes.reflections.push_back(std::move(p));
+    ++scene.probes.revision;
   }
 };
 
@@ -107,7 +125,7 @@ Quality besideOf(std::string_view term) {
 
 TEST_CASE("every rung of every term: finite, seen where it must be, and only lighting programs are linked for it", "[sweep]") {
   Stage stage;
-  const Exhibition plain, detailed(true);
+  const Exhibition plain, detailed(true), captured(false, true);
   RenderRequest request;
   request.output = Output::Linear;
   request.countNonfinite = true;
@@ -116,7 +134,7 @@ TEST_CASE("every rung of every term: finite, seen where it must be, and only lig
   for (std::size_t t = 0; t < terms().size(); ++t) {
     if (terms()[t].picture) continue;
     const bool details = terms()[t].name == "anisotropy" || terms()[t].name == "rough-diffuse", occlusion = terms()[t].name == "occlusion";
-    const Exhibition& e = details ? detailed : plain;
+    const Exhibition& e = details ? detailed : terms()[t].name == "reflection" ? captured : plain;
     const Quality beside = besideOf(terms()[t].name);
     const FramePlan usual = planOf(e.scene, e.view, beside, stage.renderer->capabilities());
     REQUIRE(stage.renderer->warmUp(usual));

@@ -44,7 +44,7 @@ constexpr TableRow kTables[] = {
     {"casters", "shadow_maps"},
 };
 /// Written anew in every frame, at most once a view.
-constexpr std::string_view kStreams[] = {"frame data", "draw data", "lights", "light lists", "tiles", "shadow data"};
+constexpr std::string_view kStreams[] = {"frame data", "draw data", "lights", "light lists", "tiles", "shadow data", "probe records", "tiles, probes"};
 /// Calls that wait for the GPU or ask it, and where a plan says that they may be.
 struct AskRow {
   std::string_view pass, call;

@@ -116,6 +116,24 @@ constexpr EffectCase kShadows{"shadows",
                                 for (const Id<Light> id : ids) s.scene.lights.edit(id)->castsShadow = true;
                               }};
 constexpr EffectCase kEnvironmentLighting{"environment_lighting", [](Subject& s) { setEnvironment(s, 0, false); }, [](Subject& s) { setEnvironment(s, 1, false); }};
+constexpr EffectCase kReflectionProbes{"reflection_probes",
+                                       [](Subject& s) {
+                                         s.scene.probes.reflections.clear();
+                                         ++s.scene.probes.revision;
+                                       },
+                                       [](Subject& s) {
+                                         ReflectionProbe p;
+                                         p.halfSize = {1.5, 1, 1.5};
+                                         p.irradiance[0] = {2, 1.5, 1};
+                                         for (const int size : {16, 8}) {
+                                           CubeLevel level;
+                                           level.size = size;
+                                           for (int i = 0; i < 18 * size * size; ++i) level.texels.push_back(0.5f + 0.1f * float(i % 7));
+                                           p.radiance.levels.push_back(std::move(level));
+                                         }
+                                         s.scene.probes.reflections.push_back(std::move(p));
+                                         ++s.scene.probes.revision;
+                                       }};
 constexpr EffectCase kBackground{"background", [](Subject& s) { s.scene.environment.background = false; }, [](Subject& s) { setEnvironment(s, 1, true); }};
 
 constexpr EffectCase kSunDisc{"sun_disc", [](Subject& s) { s.scene.environment.sun.reset(); },
@@ -173,6 +191,7 @@ constexpr EffectCase kCases[] = {
     kLocalLights,
     kShadows,
     kEnvironmentLighting,
+    kReflectionProbes,
     kBackground,
     kBakedOcclusion,
     kSunDisc,

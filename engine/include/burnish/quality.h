@@ -26,6 +26,7 @@ enum class Diffuse : std::uint8_t { Lambert, LambertFresnel, CoupledFit, Coupled
 enum class Compensation : std::uint8_t { None, MultipleScattering };
 enum class EnvironmentSpecular : std::uint8_t { None, Schlick, RoughSchlick, Dfg, Sampled };
 enum class Ambient : std::uint8_t { None, Constant, ShL1, ShL2 };
+enum class Reflection : std::uint8_t { Infinite, Box, BoxRough };  ///< of captured places (docs/probes.md)
 enum class Occlusion : std::uint8_t { None, Baked, Screen4, Screen8, Screen16 };  ///< the screen's rungs take baked occlusion too, where it is the darker
 enum class SpecularOcclusion : std::uint8_t { None, Ao, Lagarde };
 enum class DirectOcclusion : std::uint8_t { None, Specular };
@@ -50,6 +51,7 @@ struct Quality {
   Compensation compensation = Compensation::None;
   EnvironmentSpecular environmentSpecular = EnvironmentSpecular::Dfg;
   Ambient ambient = Ambient::ShL2;
+  Reflection reflection = Reflection::Box;
   Occlusion occlusion = Occlusion::Baked;
   SpecularOcclusion specularOcclusion = SpecularOcclusion::Lagarde;
   DirectOcclusion directOcclusion = DirectOcclusion::None;

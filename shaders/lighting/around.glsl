@@ -1,0 +1,115 @@
+// Light of the surroundings at a place: of captured places (shading/probes.h), and of the sky where they leave something to it. Pre-exposed.
+// The includer defines, where ENVIRONMENT is 1, skyAmbientAt(normal) and lastLevel() (of the sky's cube), and where PROBES is 1, probesNear(p, out list): records that may have a share at p,
+// smaller boxes before larger ones, -1 where the list ends.
+// Definitions: ENVIRONMENT (1: the sky gives light), PROBES (1: captured places do), RUNG_AMBIENT, RUNG_ENVIRONMENT_SPECULAR, RUNG_REFLECTION, ENVIRONMENT_UNIT.
+#if ENVIRONMENT || PROBES
+#define SURROUNDINGS 1
+#else
+#define SURROUNDINGS 0
+#endif
+#if ENVIRONMENT && RUNG_ENVIRONMENT_SPECULAR != ENVIRONMENT_SPECULAR_NONE
+layout(binding = ENVIRONMENT_UNIT) uniform samplerCube environmentCube;
+#endif
+#if PROBES
+layout(binding = UNIT_PROBES) uniform samplerBuffer probeRecords;
+#if RUNG_ENVIRONMENT_SPECULAR != ENVIRONMENT_SPECULAR_NONE
+layout(binding = UNIT_PROBE_CUBES) uniform samplerCubeArray probeCubes;
+#endif
+#endif
+
+// A point (camera-relative, m) and who lights it.
+struct Place {
+  vec3 p;
+#if PROBES
+  int probe[MAX_TILE_PROBES];
+  ProbeBlend blend;
+#endif
+};
+
+#if PROBES
+vec3 inBox(int record, vec3 p) {
+  vec4 x = texelFetch(probeRecords, record), y = texelFetch(probeRecords, record + 1), z = texelFetch(probeRecords, record + 2);
+  return vec3(dot(x.xyz, p) + x.w, dot(y.xyz, p) + y.w, dot(z.xyz, p) + z.w);
+}
+#endif
+
+Place placeAt(vec3 p) {
+  Place at;
+  at.p = p;
+#if PROBES
+  probesNear(p, at.probe);
+  at.blend = beginBlend();
+  // A box is larger by what p may be rounded by.
+  float slack = BURNISH_PROBE_SLACK * sqrt(dot(p, p));
+  for (int i = 0; i < MAX_TILE_PROBES; ++i) {
+    if (at.probe[i] < 0) break;
+    int record = at.probe[i] * PROBE_TEXELS;
+    vec4 extent = texelFetch(probeRecords, record + 3);
+    addToBlend(at.blend, i, inBox(record, p), extent.xyz + slack, texelFetch(probeRecords, record + 4).xyz, extent.w);
+  }
+  endBlend(at.blend);
+#endif
+  return at;
+}
+
+// The sky's share.
+float skyAt(Place at) {
+#if PROBES
+  return at.blend.sky;
+#else
+  return 1.0;
+#endif
+}
+
+// Irradiance over pi for the normal n.
+vec3 ambientAt(Place at, vec3 n) {
+  vec3 sum = vec3(0.0);
+#if PROBES
+#if ENVIRONMENT
+  if (at.blend.sky > 0.0) sum = skyAmbientAt(n) * at.blend.sky;
+#endif
+  for (int i = 0; i < MAX_TILE_PROBES; ++i) {
+    if (at.blend.weight[i] <= 0.0) continue;
+    vec3 c[9];
+    for (int k = 0; k < 9; ++k) c[k] = texelFetch(probeRecords, at.probe[i] * PROBE_TEXELS + 6 + k).rgb;
+    sum += irradianceSh(n, c[0], c[1], c[2], c[3], c[4], c[5], c[6], c[7], c[8], RUNG_AMBIENT) * at.blend.weight[i];
+  }
+#elif ENVIRONMENT
+  sum = skyAmbientAt(n);
+#endif
+  return max(sum, vec3(0.0));  // model: three bands of harmonics ring below 0
+}
+
+#if RUNG_ENVIRONMENT_SPECULAR != ENVIRONMENT_SPECULAR_NONE
+#if PROBES
+vec3 probeRadiance(int record, vec3 p, vec3 d, float roughness) {
+  float layer = texelFetch(probeRecords, record + 4).w;
+  vec3 direction = d;
+#if RUNG_REFLECTION != REFLECTION_INFINITE
+  vec3 x = texelFetch(probeRecords, record).xyz, y = texelFetch(probeRecords, record + 1).xyz, z = texelFetch(probeRecords, record + 2).xyz;
+  vec3 own = vec3(dot(x, d), dot(y, d), dot(z, d)), q = inBox(record, p), extent = texelFetch(probeRecords, record + 3).xyz, capture = texelFetch(probeRecords, record + 5).xyz;
+  vec3 hit = probeHit(q, own, extent), to = probeDirection(hit, own, capture);
+  direction = x * to.x + y * to.y + z * to.z;
+#if RUNG_REFLECTION == REFLECTION_BOX_ROUGH
+  roughness = probeRoughness(roughness, q, hit, capture);
+#endif
+#endif
+  return textureLod(probeCubes, vec4(direction, layer), environmentLevel(roughness, frame.probes.y)).rgb * frame.probes.z;
+}
+#endif
+
+// Radiance that arrives from the direction d (unit), averaged over the lobe of that perceptual roughness.
+vec3 radianceAt(Place at, vec3 d, float roughness) {
+  vec3 sum = vec3(0.0);
+#if PROBES
+#if ENVIRONMENT
+  if (at.blend.sky > 0.0) sum = textureLod(environmentCube, d, environmentLevel(roughness, lastLevel())).rgb * (frame.background.w * at.blend.sky);
+#endif
+  for (int i = 0; i < MAX_TILE_PROBES; ++i)
+    if (at.blend.weight[i] > 0.0) sum += probeRadiance(at.probe[i] * PROBE_TEXELS, at.p, d, roughness) * at.blend.weight[i];
+#elif ENVIRONMENT
+  sum = textureLod(environmentCube, d, environmentLevel(roughness, lastLevel())).rgb * frame.background.w;
+#endif
+  return sum;
+}
+#endif
