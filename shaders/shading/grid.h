@@ -55,7 +55,7 @@ FN real gridInFront(real height, real perDepth) {
 }
 
 // How much of a place is before the plane of one texel. away: from the point to the place. plane: xyz = the plane's normal over its distance from the point, so that xyz · (what lies on it) = 1;
-// w = 1 over how far beyond it, by this measure, light ends.
+// w = 1 over how far beyond it, by this measure, light ends. (0, 0, 0, -1): nothing is before it.
 FN real gridBefore(vec4 plane, vec3 away) { return unitClamp(R(1.0) - (plane.x * away.x + plane.y * away.y + plane.z * away.z - R(1.0)) * plane.w); }
 
 // What the four texels around a direction say together. An eighth of the weight that says no is a no: next to an edge of the room the texels of one wall would let pass what lies behind the other.

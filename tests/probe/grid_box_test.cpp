@@ -122,6 +122,23 @@ TEST_CASE("a cube with an emissive ceiling: each rung and source against radiosi
       CHECK(e.worst < 0.15);
     }
 
+    // Where points stand counts: 5 cm from the walls, and a lattice of the same spacing that knows nothing of the room (points in its walls are not valid), with the
+    // probe in the middle where it says nothing.
+    const auto other = [&](const std::string& name, AmbientGrid elsewhere) {
+      fillGrid(elsewhere, roomOf(dvec3(0), dvec3(1), 0.5), [&](const dvec3& p) { return cube.harmonics(p); });
+      const GridSampler sampler(elsewhere);
+      return add(name, [&](const dvec3& p, const dvec3& n) {
+        const GridLight l = sampler.at(p, n);
+        return l.light.x * l.share + byRung(middle, n, AMBIENT_SH_L2) * (1 - l.share);
+      });
+    };
+    const auto far = other("points 5 cm from the walls, sh-l2", gridIn(dvec3(0), dvec3(1), glm::ivec3(5), 0.05));
+    AmbientGrid loose = gridIn(dvec3(0), dvec3(1), glm::ivec3(6), 0.01);
+    loose.spacing = dvec3(0.245);
+    loose.origin = dvec3(-0.08, -0.13, -0.17);
+    other("not aligned, sh-l2", loose);
+    CHECK(far[1].mean > best[1].mean);
+
     // At the probe itself: what three bands make of the light there.
     for (int rung = AMBIENT_CONSTANT; rung <= AMBIENT_SH_L2; ++rung) {
       char text[120];

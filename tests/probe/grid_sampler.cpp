@@ -19,7 +19,6 @@ GridSampler::GridSampler(const AmbientGrid& grid, int rung) : grid_(grid), rung_
 }
 
 GridLight GridSampler::at(const dvec3& p, const dvec3& n) const {
-  constexpr int kSize = AmbientGrid::kDistanceSize;
   const dvec3 last = dvec3(grid_.counts - 1), q = glm::transpose(grid_.axes) * (p - grid_.origin) / grid_.spacing;
   const double least = std::min({grid_.spacing.x, grid_.spacing.y, grid_.spacing.z});
   const f64::GridCell cell = f64::gridCell(q, last, grid_.spacing / std::max(grid_.margin, 1e-30));
