@@ -44,6 +44,7 @@ vec4 gridAt(vec3 p, vec3 n) {
   vec3 x = grid.step[0].xyz, y = grid.step[1].xyz, z = grid.step[2].xyz, inCell = q - cell.first;
   vec3 fromFirst = x * inCell.x + y * inCell.y + z * inCell.z, perStep = vec3(dot(x, n), dot(y, n), dot(z, n));
   float height = -dot(fromFirst, n), perDepth = grid.step[2].w;
+  fromFirst += x * cell.pull.x + y * cell.pull.y + z * cell.pull.z;
   int base = int((cell.first.z * (grid.last.y + 1.0) + cell.first.y) * (grid.last.x + 1.0) + cell.first.x), row = int(grid.last.x) + 1, slice = row * (int(grid.last.y) + 1);
   vec3 light = vec3(0.0);
   float sum = 0.0, left = 1.0;

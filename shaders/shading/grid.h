@@ -27,6 +27,7 @@ FN real gridDepth(real least) { return R(0.05) * least; }
 struct GridCell {
   vec3 first;   // the cell's lowest point, whole numbers
   vec3 share;   // of the next point along each axis, [0, 1]
+  vec3 pull;    // toward the lattice, from a place outside: what is seen is looked up so much nearer, since in the very corner of a room texels mix its walls
   real weight;  // of the lattice, [0, 1]: outside it gives way
 };
 
@@ -37,6 +38,7 @@ FN GridCell gridCell(vec3 q, vec3 last, vec3 perMargin) {
   vec3 held = clamp(q, vec3(R(0.0)), last);             // model: light goes on as it is outside
   c.first = clamp(floor(held), vec3(R(0.0)), max(last - vec3(R(1.0)), vec3(R(0.0))));  // model: the last point belongs to the cell before it
   c.share = held - c.first;
+  c.pull = clamp(held - q, vec3(R(-0.03)), vec3(R(0.03)));  // model: less than points stand before a wall
   vec3 out_ = max(abs(q - held) - vec3(R(0.5)), vec3(R(0.0))) * perMargin;  // model: half a cell belongs to the lattice
   c.weight = unitClamp(R(1.0) - length(out_));
   return c;

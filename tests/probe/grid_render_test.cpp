@@ -106,6 +106,7 @@ TEST_CASE("constant light of a lattice is constant in the picture") {
   for (int y = 0; y < 72; ++y)
     for (int x = 0; x < 96; ++x) {
       const dvec3 c = picture.at(x, y);
+      CAPTURE(x, y);
       CHECK(c.x == Approx(0.7).epsilon(1.0 / 1024));
       CHECK(c.y == Approx(70).epsilon(1.0 / 1024));
       CHECK(c.z == Approx(7000).epsilon(1.0 / 1024));

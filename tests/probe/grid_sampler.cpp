@@ -36,7 +36,8 @@ GridLight GridSampler::at(const dvec3& p, const dvec3& n) const {
       const double before = f64::gridInFront(-dot(away, n), 1 / f64::gridDepth(least));
       double w = f64::gridShare(cell, side) * (front ? before : (1 - before) * left);
       if (!grid_.points[index].valid || !(w > 0)) continue;
-      w *= sees(index, away + n * f64::gridAim(least), away + n * f64::gridBias(least));
+      const dvec3 seen = away + grid_.axes * (cell.pull * grid_.spacing);
+      w *= sees(index, seen + n * f64::gridAim(least), seen + n * f64::gridBias(least));
       const auto& c = grid_.points[index].irradiance;
       light += w * f64::irradianceSh(n, c[0], c[1], c[2], c[3], c[4], c[5], c[6], c[7], c[8], rung_);
       sum += w;
