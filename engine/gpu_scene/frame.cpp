@@ -155,7 +155,7 @@ void fillFog(FrameData& d, FrameContext& c) {
   const Fog fog = scene::fogOf(c.scene, &c.report);
   d.fog = vec4(fog.density, fog.falloff, float(c.view.eye.y - double(fog.height)), fog.start);
   const Ambient rung = c.quality.ambient;
-  const float first = rung == Ambient::ShL1 || rung == Ambient::ShL2 ? 1.5f * fog.anisotropy : 0;
+  const float first = rung >= Ambient::ShL1 ? 1.5f * fog.anisotropy : 0;
   for (int i = 0; i < 4; ++i) d.fogLight[i] = d.irradiance[i] * vec4(fog.albedo, 0) * (i == 0 ? 1 : first);
   d.fogLight[4] = vec4(fog.albedo, fog.anisotropy);
 }

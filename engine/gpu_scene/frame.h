@@ -70,6 +70,7 @@ struct FrameBuffers {
   gl::Buffer frame, draws;
   ShadowBindings shadows;  ///< empty until a plan has shadows
   gl::TextureBuffer probes;  ///< records; empty until a plan reads them
+  gl::Buffer grid;           ///< where the ambient lattice lies; likewise
   std::size_t drawStride = 256;
   static Result<FrameBuffers> create(gl::Device& device);
   /// Vertex formats of the geometry programs, made when first asked for.
@@ -110,6 +111,7 @@ struct FrameContext {
   scene::ShadowSet* shadows = nullptr;    ///< of the first of `lights`; the pass "shadow_maps" says in which layers its maps are
   const GpuEnvironment* environment = nullptr;
   std::span<const scene::SeenProbe> probes{};  ///< smaller boxes before larger ones
+  const GpuGrid* grid = nullptr;               ///< nullptr: the plan reads none
   const GpuProbes* probeLight = nullptr;       ///< nullptr: `probes` is empty
   glm::ivec2 size{0};      ///< of the target
   GLuint output = 0;       ///< the target's framebuffer

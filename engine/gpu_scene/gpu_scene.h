@@ -9,6 +9,7 @@
 
 #include "gl/objects.h"
 #include "gpu_scene/deformation.h"
+#include "gpu_scene/grid.h"
 #include "gpu_scene/layout.h"
 #include "gpu_scene/mesh_parts.h"
 #include "gpu_scene/probes.h"
@@ -69,6 +70,8 @@ class GpuScene {
   /// Only called when the plan looks reflections up in captured places: some probe of the scene is usable.
   /// `cubes`: something looks reflections up. What a refresh writes there holds until the set's revision moves.
   Result<GpuProbes*> probes(const Scene& scene, bool cubes, Report& report);
+  /// Only called when the plan reads the lattice.
+  Result<const GpuGrid*> grid(const Scene& scene, Report& report);
 
   [[nodiscard]] Deformation& deformation() { return deformation_; }
   /// Whether so many bytes may be uploaded in this frame; they count as uploaded then.
@@ -116,6 +119,8 @@ class GpuScene {
   std::uint64_t environmentRevision_ = 0;
   std::unique_ptr<GpuProbes> probes_;
   std::uint64_t probesRevision_ = 0;
+  std::unique_ptr<GpuGrid> grid_;
+  std::uint64_t gridRevision_ = 0;
   std::uint64_t meshesRevision_ = 0, texturesRevision_ = 0, materialsRevision_ = ~0ull;
   Deformation deformation_;
   std::uint64_t meshSerial_ = 0;

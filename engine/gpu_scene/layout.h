@@ -13,6 +13,7 @@ static_assert(offsetof(FrameData, rayOrigin) == 64 && offsetof(FrameData, viewpo
 static_assert(offsetof(FrameData, fog) == 368 && sizeof(FrameData) == 368 + 9 * 16 + 2 * MAX_DIRECTIONAL * 16);
 static_assert(sizeof(DrawData) == DRAW_VECTORS * 16 && offsetof(DrawData, normal) == 112);
 static_assert(sizeof(ShadowData) == 16 + MAX_SHADOW_SUNS * SUN_SHADOW_VECTORS * 16 && SUN_SHADOW_VECTORS == 4 + 2 * MAX_CASCADES);
+static_assert(sizeof(GridData) == 8 * 16);
 static_assert(sizeof(MaterialData) == 18 * 16 && offsetof(MaterialData, uv) == 64);
 
 }  // namespace burnish::gpu_scene

@@ -75,13 +75,20 @@ Verdict reflectionProbes(const Situation& s) {
   const std::string otherwise = dark == probes.end() ? "a reflection probe would call for it" : fmt::format("reflection probe '{}' is not baked", dark->name);
   return provided(provided(countedLights(s, Call::ReflectionProbe, s.facts.probes, otherwise), quality, "the quality turns it off"), s.final() && s.hasDepth(), notLit(s));
 }
+Verdict ambientGrid(const Situation& s) {
+  const auto& grid = s.scene.probes.grid;
+  const std::string otherwise = grid && grid->points.empty() ? "the ambient lattice is not baked" : "a baked ambient lattice would call for it";
+  const bool ambient = s.quality.ambient != Ambient::None, source = s.quality.ambientSource == AmbientSource::Grid;
+  const Verdict called = provided(sceneCalls(s, Call::AmbientGrid, otherwise), ambient, "the quality turns ambient light off");
+  return provided(provided(called, source, "ambient-source=probes turns it off"), s.final() && s.hasDepth(), notLit(s));
+}
 Verdict background(const Situation& s) { return provided(sceneCalls(s, Call::Background, "an environment shown as background would call for it"), s.final(), kNotShown); }
 
 /// Occlusion is taken from the light of the surroundings, and from that of lights where the quality says so.
 constexpr std::string_view kHoldsNothingBack = "no light that it holds back: it takes from the surroundings'";
 bool holdsBack(const Situation& s) {
   const bool lights = s.quality.directOcclusion != DirectOcclusion::None && (s.on("directional_lights") || s.on("local_lights"));
-  return s.options.debugView == DebugView::Occlusion || s.on("environment_lighting") || s.on("reflection_probes") || lights;
+  return s.options.debugView == DebugView::Occlusion || s.on("environment_lighting") || s.on("reflection_probes") || s.on("ambient_grid") || lights;
 }
 Verdict bakedOcclusion(const Situation& s) {
   const Verdict called = sceneCalls(s, Call::BakedOcclusion, s.quality.occlusion == Occlusion::None ? "the quality turns it off" : "a material with an occlusion map would call for it");
@@ -172,6 +179,7 @@ constexpr EffectRow kRows[] = {
     {{"shadows", CalledBy::Scene, "what stands in a light keeps it from what is behind"}, shadows, false},
     {{"environment_lighting", CalledBy::Scene, "light of the surroundings"}, environmentLighting, false},
     {{"reflection_probes", CalledBy::Scene, "light of captured places"}, reflectionProbes, false},
+    {{"ambient_grid", CalledBy::Scene, "ambient light of a lattice of points"}, ambientGrid, false},
     {{"background", CalledBy::Scene, "the surroundings where nothing was drawn"}, background, false},
     {{"baked_occlusion", CalledBy::Scene, "occlusion maps"}, bakedOcclusion, false},
     {{"sun_disc", CalledBy::Scene, "the sun itself in the background"}, sunDisc, false},

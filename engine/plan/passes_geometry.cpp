@@ -56,7 +56,7 @@ void addGBuffer(Builder& b) {
 void addForward(Builder& b) {
   const Situation& s = b.s;
   if (!s.forward()) return;
-  PassPlan& pass = b.pass("forward", {"forward_reference", "reflection_probes", "fog", "anisotropy", "rough_diffuse"}, {"meshes", "materials"}, {"light", "depth"});
+  PassPlan& pass = b.pass("forward", {"forward_reference", "reflection_probes", "ambient_grid", "fog", "anisotropy", "rough_diffuse"}, {"meshes", "materials"}, {"light", "depth"});
   if (s.on("local_lights")) pass.reads.emplace_back("lights");
   readSurroundings(s, pass);
   if (s.shadows().rung != Shadow::None) pass.reads.push_back("shadow_maps");

@@ -6,7 +6,7 @@
 namespace burnish::plan {
 namespace {
 
-const std::initializer_list<std::string_view> kLightOwners = {"tone_mapping", "linear_output", "debug_view", "directional_lights", "local_lights", "environment_lighting", "reflection_probes", "background", "emissive", "alpha_blend", "glass", "fog"};
+const std::initializer_list<std::string_view> kLightOwners = {"tone_mapping", "linear_output", "debug_view", "directional_lights", "local_lights", "environment_lighting", "reflection_probes", "ambient_grid", "background", "emissive", "alpha_blend", "glass", "fog"};
 
 }  // namespace
 
@@ -14,8 +14,9 @@ void readSurroundings(const Situation& s, PassPlan& pass) {
   const bool environment = s.on("environment_lighting"), probes = s.probes();
   if (needsCube(s.quality, environment)) pass.reads.emplace_back("environment cube");
   if (probes) pass.reads.emplace_back("probe records");
+  if (s.on("ambient_grid")) pass.reads.emplace_back("ambient lattice");
   if (needsCube(s.quality, probes)) pass.reads.emplace_back("probe cubes");
-  if (needsDfg(s.quality, environment || probes)) pass.reads.emplace_back("dfg");
+  if (needsDfg(s.quality, environment || probes || s.on("ambient_grid"))) pass.reads.emplace_back("dfg");
 }
 
 void addTiles(Builder& b) {
@@ -23,13 +24,13 @@ void addTiles(Builder& b) {
   // Linear output keeps radiance in floats; a picture for a display is pre-exposed, so that half floats suffice.
   if (s.final() && !s.developsInPlace()) b.target("light", s.options.output == Output::Linear ? "RGBA32F" : "RGBA16F", kLightOwners);
   if (!s.hasTiles()) return;
-  PassPlan& pass = b.pass("tiles", {"directional_lights", "local_lights", "environment_lighting", "reflection_probes", "screen_occlusion", "debug_view"}, {"depth"}, {"light lists"});
+  PassPlan& pass = b.pass("tiles", {"directional_lights", "local_lights", "environment_lighting", "reflection_probes", "ambient_grid", "screen_occlusion", "debug_view"}, {"depth"}, {"light lists"});
   if (s.on("local_lights")) pass.writes.emplace_back("lights");
   if (!s.reducesDepth()) {
     if (s.on("local_lights")) pass.reads.emplace_back("gbuffer_b");  // normals, to leave out lights from behind
     return;
   }
-  b.target("tile_depth", "RGBA32F", {"directional_lights", "local_lights", "environment_lighting", "reflection_probes", "screen_occlusion", "debug_view"}, (s.options.size + 15) / 16);
+  b.target("tile_depth", "RGBA32F", {"directional_lights", "local_lights", "environment_lighting", "reflection_probes", "ambient_grid", "screen_occlusion", "debug_view"}, (s.options.size + 15) / 16);
   pass.writes.push_back("tile_depth");
   for (bool o : s.projections()) b.useScreen(pass, o ? "tile_depth+ortho" : "tile_depth", "lighting/tile_depth.frag", {define("ORTHOGRAPHIC", o)});
 }
@@ -89,7 +90,7 @@ void addLighting(Builder& b) {
   if (!s.hasDepth() || s.forward() || !s.lit() || !s.final()) return;
   const bool local = s.on("local_lights");
   const char* into = s.developsInPlace() ? "target" : "light";
-  PassPlan& pass = b.pass("lighting", {"directional_lights", "local_lights", "environment_lighting", "reflection_probes", "fog"}, {"gbuffer_a", "gbuffer_b", "depth", "light lists"}, {into});
+  PassPlan& pass = b.pass("lighting", {"directional_lights", "local_lights", "environment_lighting", "reflection_probes", "ambient_grid", "fog"}, {"gbuffer_a", "gbuffer_b", "depth", "light lists"}, {into});
   if (local) pass.reads.emplace_back("lights");
   if (s.developsInPlace()) pass.effects.emplace_back("tone_mapping");
   if (s.on("screen_occlusion"))

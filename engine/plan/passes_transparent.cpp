@@ -16,7 +16,7 @@ void addTransparent(Builder& b) {
   const Situation& s = b.s;
   if (!s.hasDepth() || !s.final() || !(s.on("alpha_blend") || s.on("glass"))) return;
   const bool glass = s.on("glass");
-  PassPlan& pass = b.pass("transparent", {"alpha_blend", "glass", "reflection_probes", "fog", "anisotropy", "rough_diffuse"}, {"meshes", "materials", "depth"}, {"light"});
+  PassPlan& pass = b.pass("transparent", {"alpha_blend", "glass", "reflection_probes", "ambient_grid", "fog", "anisotropy", "rough_diffuse"}, {"meshes", "materials", "depth"}, {"light"});
   if (s.on("local_lights")) pass.reads.emplace_back("lights");
   readSurroundings(s, pass);
   if (s.shadows().rung != Shadow::None) pass.reads.push_back("shadow_maps");

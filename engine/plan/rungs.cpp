@@ -12,7 +12,7 @@ namespace {
 // The enums and the shading text count alike.
 static_assert(int(Specular::GgxSmith) == SPECULAR_GGX_SMITH && int(Specular::Ward) == SPECULAR_WARD && int(Distribution::Ggx) == DISTRIBUTION_GGX);
 static_assert(int(Geometry::VCavity) == GEOMETRY_V_CAVITY && int(Normalization::Exact) == NORMALIZATION_EXACT && int(Lobe::Stable) == LOBE_STABLE);
-static_assert(int(Fresnel::Conductor) == FRESNEL_CONDUCTOR && int(Diffuse::OrenNayarEnergy) == DIFFUSE_OREN_NAYAR_ENERGY && int(Ambient::ShL2) == AMBIENT_SH_L2);
+static_assert(int(Fresnel::Conductor) == FRESNEL_CONDUCTOR && int(Diffuse::OrenNayarEnergy) == DIFFUSE_OREN_NAYAR_ENERGY && int(Ambient::Box) == AMBIENT_BOX && int(AmbientSource::Grid) == AMBIENT_SOURCE_GRID);
 static_assert(int(Compensation::MultipleScattering) == COMPENSATION_MULTIPLE_SCATTERING && int(EnvironmentSpecular::Sampled) == ENVIRONMENT_SPECULAR_SAMPLED);
 static_assert(int(Reflection::BoxRough) == REFLECTION_BOX_ROUGH);
 static_assert(int(SpecularOcclusion::Lagarde) == SPECULAR_OCCLUSION_LAGARDE && int(DirectOcclusion::Specular) == DIRECT_OCCLUSION_SPECULAR);
@@ -87,6 +87,11 @@ constexpr Rung kAmbient[] = {
     {"constant", "the mean of the surroundings", "Ramamoorthi and Hanrahan 2001, band 0"},
     {"sh-l1", "spherical harmonics up to band 1", "Ramamoorthi and Hanrahan 2001, band 1"},
     {"sh-l2", "spherical harmonics up to band 2", "Ramamoorthi and Hanrahan 2001, eq. 13"},
+    {"box", "of reflection probes: sh-l2 in twelve directions, each where it meets the probe's box", "after Lagarde and Zanuttini 2012"},
+};
+constexpr Rung kAmbientSource[] = {
+    {"probes", "reflection probes, each with one light for its whole box", "after Lagarde and Zanuttini 2012"},
+    {"grid", "the scene's lattice, with what its points see; reflection probes where it ends", "after Majercik et al. 2019"},
 };
 constexpr Rung kReflection[] = {
     {"infinite", "as if the captured walls were far away", "Blinn and Newell 1976"},
@@ -153,6 +158,7 @@ constexpr Term kTerms[] = {
     {"compensation", "energy lost between facets", kCompensation},
     {"environment-specular", "reflections of the surroundings", kEnvironmentSpecular},
     {"ambient", "diffuse light of the surroundings", kAmbient},
+    {"ambient-source", "where the ambient light of captured places comes from", kAmbientSource},
     {"reflection", "where reflections of probes are looked up", kReflection},
     {"occlusion", "ambient occlusion", kOcclusion},
     {"specular-occlusion", "ambient occlusion on reflections of the surroundings", kSpecularOcclusion},
@@ -180,16 +186,17 @@ auto withMember(Q& q, std::size_t term, F&& f) {
     case 7: return f(q.compensation);
     case 8: return f(q.environmentSpecular);
     case 9: return f(q.ambient);
-    case 10: return f(q.reflection);
-    case 11: return f(q.occlusion);
-    case 12: return f(q.specularOcclusion);
-    case 13: return f(q.directOcclusion);
-    case 14: return f(q.anisotropy);
-    case 15: return f(q.roughDiffuse);
-    case 16: return f(q.path);
-    case 17: return f(q.shadow);
-    case 18: return f(q.antialiasing);
-    case 19: return f(q.bloom);
+    case 10: return f(q.ambientSource);
+    case 11: return f(q.reflection);
+    case 12: return f(q.occlusion);
+    case 13: return f(q.specularOcclusion);
+    case 14: return f(q.directOcclusion);
+    case 15: return f(q.anisotropy);
+    case 16: return f(q.roughDiffuse);
+    case 17: return f(q.path);
+    case 18: return f(q.shadow);
+    case 19: return f(q.antialiasing);
+    case 20: return f(q.bloom);
     default: return f(q.specularAntialiasing);
   }
 }
@@ -239,6 +246,7 @@ Result<void> setPreset(Quality& quality, std::string_view name) {
     q.lobe = Lobe::Pow;
     q.diffuse = Diffuse::Lambert;
     q.environmentSpecular = EnvironmentSpecular::Schlick;
+    q.ambientSource = AmbientSource::Probes;
     q.reflection = Reflection::Infinite;
     q.specularOcclusion = SpecularOcclusion::Ao;
     q.directOcclusion = DirectOcclusion::Specular;
@@ -252,6 +260,7 @@ Result<void> setPreset(Quality& quality, std::string_view name) {
     q.diffuse = Diffuse::OrenNayarEnergy;
     q.compensation = Compensation::MultipleScattering;
     q.environmentSpecular = EnvironmentSpecular::Sampled;
+    q.ambient = Ambient::Box;
     q.reflection = Reflection::BoxRough;
     q.shadow = Shadow::Pcss;
   } else if (name != "default") {

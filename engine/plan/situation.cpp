@@ -94,6 +94,10 @@ void addProbes(const Scene& scene, std::span<const scene::SeenProbe> probes, Fac
   facts.probes = std::max(facts.probes, int(probes.size()));
 }
 
+void addGrid(const Scene& scene, bool seen, Facts& facts) {
+  if (seen) facts.call(Call::AmbientGrid, "ambient lattice", scene.probes.grid->name, "");
+}
+
 void addShadows(const Scene& scene, const scene::ShadowSet& shadows, Facts& facts) {
   for (std::size_t i = 0; i < shadows.callers.size(); ++i) facts.call(i < shadows.suns.size() ? Call::SunShadows : Call::LocalShadows, "light", shadows.callers[i], " casts shadows");
   facts.shadowSuns = std::max(facts.shadowSuns, int(shadows.suns.size()));
@@ -137,6 +141,8 @@ void look(const Scene& scene, const scene::Derived& derived, const View& view, g
   out.transparent = scene::orderTransparent(scene, derived, out.frame, out.instances);
   out.lights = scene::gatherLights(scene, derived, out.frame, quality, report);
   out.probes = scene::findProbes(scene, out.frame, report);
+  const AmbientGrid* grid = scene::usableGrid(scene, &report);
+  out.grid = grid && scene::meetsGrid(*grid, out.frame);
   out.fogDepth = scene::deepestFog(scene, derived, out.frame, out.instances, out.lights);
   scene::gatherShadows(scene, derived, out.frame, quality, out.instances, scene::Reach::InView, out.lights, report, out.shadows);
 }
@@ -148,6 +154,7 @@ void lookEverywhere(const Scene& scene, const scene::Derived& derived, const Vie
   out.transparent = scene::orderTransparent(scene, derived, out.frame, out.instances);
   out.lights = scene::gatherLights(scene, derived, out.frame, quality, report, scene::Reach::Everywhere);
   out.probes = scene::findProbes(scene, out.frame, report, scene::Reach::Everywhere);
+  out.grid = scene::usableGrid(scene, &report) != nullptr;
   out.fogDepth = scene::deepestFog(scene, derived, out.frame, out.instances, out.lights);
   scene::gatherShadows(scene, derived, out.frame, quality, out.instances, scene::Reach::Everywhere, out.lights, report, out.shadows);
 }
@@ -166,6 +173,7 @@ Facts factsOf(const Scene& scene, std::span<const Seen> views, const Quality& qu
     addGroups(scene, view, allowed, facts);
     addLights(scene, view.lights, facts);
     addProbes(scene, view.probes, facts);
+    addGrid(scene, view.grid, facts);
     if (view.fogDepth > scene::kLeastFog || (options.wholeScene && scene.fog.density > 0)) facts.why[std::size_t(Call::Fog)] = "the scene's fog";
     addShadows(scene, view.shadows, facts);
     if (!view.moved.empty()) facts.call(Call::Moving, "instance", view.instances[view.moved.front().visible].instance->name, " moves", int(view.moved.size()));
@@ -195,7 +203,7 @@ std::vector<bool> Situation::projections() const {
 }
 
 LightingVariant Situation::lighting(bool orthographic) const {
-  return {on("directional_lights") ? std::min(facts.directionalLights, MAX_DIRECTIONAL) : 0, on("environment_lighting"), on("baked_occlusion") || on("screen_occlusion"), orthographic, developsInPlace() ? int(quality.toneMap) : -1, on("fog"), on("local_lights"), {false, false}, shadows(), Places::None};
+  return {on("directional_lights") ? std::min(facts.directionalLights, MAX_DIRECTIONAL) : 0, on("environment_lighting"), on("baked_occlusion") || on("screen_occlusion"), orthographic, developsInPlace() ? int(quality.toneMap) : -1, on("fog"), on("local_lights"), {false, false}, shadows(), Places::None, on("ambient_grid")};
 }
 
 ShadowLighting Situation::shadows() const {

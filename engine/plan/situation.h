@@ -6,6 +6,7 @@
 #include <set>
 
 #include "plan/variants.h"
+#include "scene/grid.h"
 #include "scene/probes.h"
 #include "scene/shadows.h"
 #include "scene/motion.h"
@@ -22,6 +23,7 @@ struct Seen {
   scene::ShadowSet shadows;                          ///< of the first of `lights`
   std::vector<scene::TransparentGroup> transparent;  ///< farthest first; indices into instances
   std::vector<scene::SeenProbe> probes;              ///< smaller boxes before larger ones
+  bool grid = false;                                 ///< the scene's ambient lattice can light something in view
   double fogDepth = 0;                               ///< no more than so much fog lies before anything in view (optical depth)
   std::vector<scene::Moved> moved;                   ///< since the frame before; filled in by whoever remembers it
 };
@@ -31,7 +33,7 @@ void look(const Scene& scene, const scene::Derived& derived, const View& view, g
 void lookEverywhere(const Scene& scene, const scene::Derived& derived, const View& view, glm::ivec2 targetSize, const Quality& quality, Report& report, Seen& out);
 
 /// What a scene holds that effects are called by.
-enum class Call : std::uint8_t { Geometry, Deformation, TwoSided, AlphaTest, BakedOcclusion, Anisotropy, RoughDiffuse, Emissive, Directional, Local, Environment, Background, AlphaBlend, Glass, Fog, SunDisc, SunShadows, LocalShadows, Moving, ReflectionProbe, Count };
+enum class Call : std::uint8_t { Geometry, Deformation, TwoSided, AlphaTest, BakedOcclusion, Anisotropy, RoughDiffuse, Emissive, Directional, Local, Environment, Background, AlphaBlend, Glass, Fog, SunDisc, SunShadows, LocalShadows, Moving, ReflectionProbe, AmbientGrid, Count };
 struct Facts {
   std::array<std::string, std::size_t(Call::Count)> why;  ///< the first thing that calls; empty: nothing does
   std::array<int, std::size_t(Call::Count)> objects{};    ///< how many call, instances or lights, counted once a view
@@ -72,7 +74,7 @@ struct Situation {
   [[nodiscard]] bool viewsLights() const { return options.debugView == DebugView::Lights; }
   /// There is a depth buffer: instances or the host's depth are in it.
   [[nodiscard]] bool hasDepth() const { return on("geometry") || options.hostDepthIn; }
-  [[nodiscard]] bool lit() const { return on("directional_lights") || on("local_lights") || on("environment_lighting") || on("reflection_probes"); }
+  [[nodiscard]] bool lit() const { return on("directional_lights") || on("local_lights") || on("environment_lighting") || on("reflection_probes") || on("ambient_grid"); }
   /// Lighting looks captured places up.
   [[nodiscard]] bool probes() const { return on("reflection_probes") && facts.probes > 0; }
   /// Lighting writes what the display takes straight into the target: no effect needs the light buffer. Asked once all effects are judged.

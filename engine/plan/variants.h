@@ -105,13 +105,14 @@ struct LightingVariant {
   [[nodiscard]] bool detail() const { return details.brushed || details.rough; }
   ShadowLighting shadows{};
   Places places = Places::None;  ///< that may light what the program draws
-  [[nodiscard]] bool surroundings() const { return environment || places != Places::None; }
+  bool grid = false;             ///< an ambient lattice lights the scene
+  [[nodiscard]] bool surroundings() const { return environment || places != Places::None || grid; }
 };
 /// Fog is there and lit by the surroundings.
 bool fogAmbient(const Quality& quality, const LightingVariant& lighting);
 /// What emits, through the fog if there is any.
 ProgramPlan emissiveProgram(GeometryVariant variant, const Quality& quality, const LightingVariant& lighting);
-/// The lobe's table (prefilter/dfg.h) is read. surroundings: the sky or captured places light the scene.
+/// The lobe's table (prefilter/dfg.h) is read. surroundings: the sky, captured places or a lattice light the scene.
 bool needsDfg(const Quality& quality, bool surroundings);
 /// The prefiltered cube, of the sky or of captured places, is read where that lights the scene.
 bool needsCube(const Quality& quality, bool lights);

@@ -163,16 +163,24 @@ Result<void> Renderer::Impl::renderView(Series& series, SceneState& state, const
     if (!found) return fail(found.error());
     probeLight = *found;
   }
+  const gpu_scene::GpuGrid* grid = nullptr;
+  if (plan::reads(plan, "ambient lattice")) {
+    auto found = state.gpu.grid(scene, report);
+    if (!found) return fail(found.error());
+    grid = *found;
+  }
   FrameContext c{.device = *device, .plan = plan, .programs = series.programs, .targets = series.targets, .gpuScene = state.gpu, .buffers = series.buffers, .scene = scene, .quality = quality, .view = view.frame,
-                 .visible = view.instances, .batches = view.batches, .lights = view.lights, .transparent = view.transparent, .shadows = &view.shadows, .environment = environment, .probes = view.probes, .probeLight = probeLight, .size = target.size, .output = target.framebuffer, .past = past, .moved = view.moved, .report = report, .stats = stats};
+                 .visible = view.instances, .batches = view.batches, .lights = view.lights, .transparent = view.transparent, .shadows = &view.shadows, .environment = environment, .probes = view.probes, .grid = grid, .probeLight = probeLight, .size = target.size, .output = target.framebuffer, .past = past, .moved = view.moved, .report = report, .stats = stats};
   const float display = quality.exposureEv ? exposureOf(*quality.exposureEv) : 1;
-  if (request.output == Output::Display) c.preExposure = quality.exposureEv ? display : guessedExposure(view.lights, environment, scene.environment.scale, brightestPlace(scene, view.probes));
+  if (request.output == Output::Display) c.preExposure = quality.exposureEv ? display : guessedExposure(view.lights, environment, scene.environment.scale, std::max(brightestPlace(scene, view.probes), grid ? grid->luminance : 0.0f));
   series.preExposure = c.preExposure;
   if (auto done = gpu_scene::uploadFrameData(c, display); !done) return done;
   if (drawsInstances(plan))
     if (auto done = gpu_scene::uploadDraws(c); !done) return done;
   if (plan::reads(plan, "probe records"))
     if (auto done = gpu_scene::uploadProbeRecords(c); !done) return done;
+  if (grid)
+    if (auto done = gpu_scene::uploadGridData(c); !done) return done;
   stats.lightsInView += int(view.lights.directional.size());
   PassCall call{c, series.modules, target, request};
   for (const PassPlan& pass : plan.passes)

@@ -8,6 +8,7 @@
 #define BINDING_MATERIAL 2
 #define BINDING_SHADOW 3
 #define BINDING_CUBE_FILTER 4
+#define BINDING_GRID 5
 
 // Storage blocks
 #define STORAGE_DEFORM_SOURCE 0
@@ -43,6 +44,8 @@
 #define UNIT_SCENE_DEPTH 9  // and no exposure
 #define UNIT_PROBE_CUBES 10   // light of captured places
 #define UNIT_PROBES 11        // and their records
+#define UNIT_GRID_LIGHT 12    // the ambient lattice: harmonics of its points
+#define UNIT_GRID_PLANES 13   // and what they see
 #define UNIT_SHADOW 14        // shadow maps, compared
 #define UNIT_SHADOW_DEPTH 15  // and as depths
 #define UNIT_HISTORY 0
@@ -104,6 +107,14 @@ struct MaterialData {
 //   0 to 2: rows from camera-relative world to the box's axes, relative to its middle
 //   3: half sizes (m), w margin (m); 4: fades (m, at most the half sizes), w its cube in the array; 5: the capture's place in those axes
 //   6 to 14: pre-exposed irradiance/pi, as FrameData::irradiance
+
+// Where the ambient lattice lies (shading/grid.h). Lattice coordinates: points are whole numbers.
+struct GridData {
+  vec4 toLattice[3];  // rows from camera-relative world to lattice coordinates
+  vec4 step[3];       // xyz to the next point along each axis, m; w: gridAim, gridBias, 1/gridDepth
+  vec4 last;          // xyz coordinates of the last point; w what the harmonics' half floats are multiplied by: pre-exposed
+  vec4 margin;        // xyz spacing over the margin
+};
 
 // Directional lights' shadows. Those of point and spot lights are records of SHADOW_TEXELS texels behind the lights in their buffer:
 //   0: x 1 with a cube of maps, else 0; y and z: depth in the map = y / w - z, w the distance along the map's axis (m); w: the map's half side at 1 m

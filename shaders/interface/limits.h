@@ -7,6 +7,9 @@
 #define MAX_TILE_PROBES 4     // reflection probes that light a tile, and a pixel
 #define PROBE_TEXELS 15       // of a reflection probe's record
 #define MAX_PROBES 341        // reflection probes of a scene: six layers each in an array of 2048, which every device has
+#define GRID_MAP_SIZE 16      // texels along a side of a lattice point's map of distances
+#define GRID_TILE 18          // and of its planes, with a border
+#define GRID_LIGHT_TEXELS 4   // of a lattice point's harmonics
 #define MAX_CASCADES 4
 #define MAX_SHADOW_SUNS 4
 #define SHADOW_TEXELS 10      // of a point or spot light's shadow record

@@ -2,8 +2,8 @@
 // The includer defines, where ENVIRONMENT is 1, skyAmbientAt(normal) and lastLevel() (of the sky's cube), and where PROBES is not 0, probesNear(p, out list): how many records may
 // have a share at p (MAX_TILE_PROBES at most), and which, smaller boxes before larger ones. A software renderer saves the turns that a loop does not take, but
 // nothing of an if.
-// Definitions: ENVIRONMENT (1: the sky gives light), PROBES (1: one captured place may, 2: several), RUNG_AMBIENT, RUNG_ENVIRONMENT_SPECULAR, RUNG_REFLECTION, ENVIRONMENT_UNIT.
-#if ENVIRONMENT || PROBES
+// Definitions: ENVIRONMENT (1: the sky gives light), PROBES (1: one captured place may, 2: several), GRID (1: an ambient lattice does), RUNG_AMBIENT, RUNG_ENVIRONMENT_SPECULAR, RUNG_REFLECTION, ENVIRONMENT_UNIT.
+#if ENVIRONMENT || PROBES || GRID
 #define SURROUNDINGS 1
 #else
 #define SURROUNDINGS 0
@@ -22,6 +22,10 @@ layout(binding = UNIT_PROBES) uniform samplerBuffer probeRecords;
 #if RUNG_ENVIRONMENT_SPECULAR != ENVIRONMENT_SPECULAR_NONE
 layout(binding = UNIT_PROBE_CUBES) uniform samplerCubeArray probeCubes;
 #endif
+#endif
+
+#if GRID
+#include "interface/grid.glsl"
 #endif
 
 // A point (camera-relative, m) and who lights it.
@@ -73,12 +77,22 @@ float skyAt(Place at) {
 vec3 probeAmbient(int record, vec3 p, vec3 n) {
   vec3 c[9];
   for (int k = 0; k < 9; ++k) c[k] = texelFetch(probeRecords, record + 6 + k).rgb;
+#if RUNG_AMBIENT == AMBIENT_BOX
+  vec3 x = texelFetch(probeRecords, record).xyz, y = texelFetch(probeRecords, record + 1).xyz, z = texelFetch(probeRecords, record + 2).xyz, sum = vec3(0.0);
+  vec3 own = vec3(dot(x, n), dot(y, n), dot(z, n)), q = inBox(record, p), extent = texelFetch(probeRecords, record + 3).xyz, capture = texelFetch(probeRecords, record + 5).xyz;
+  for (int i = 0; i < AMBIENT_BOX_TAPS; ++i) {
+    vec3 d = ambientTap(i), to = normalize(probeDirection(probeHit(q, d, extent), d, capture));
+    sum += irradianceBands(x * to.x + y * to.y + z * to.z, c[0], c[1], c[2], c[3], c[4], c[5], c[6], c[7], c[8]) * ambientTapWeight(dot(own, d));
+  }
+  return sum;
+#else
   return irradianceSh(n, c[0], c[1], c[2], c[3], c[4], c[5], c[6], c[7], c[8], RUNG_AMBIENT);
+#endif
 }
 #endif
 
-// Irradiance over pi for the normal n.
-vec3 ambientAt(Place at, vec3 n) {
+// Irradiance over pi for the normal n, of captured places and the sky.
+vec3 ambientAround(Place at, vec3 n) {
   vec3 sum = vec3(0.0);
 #if PROBES
 #if ENVIRONMENT
@@ -89,6 +103,20 @@ vec3 ambientAt(Place at, vec3 n) {
   sum = skyAmbientAt(n);
 #endif
   return max(sum, vec3(0.0));  // model: three bands of harmonics ring below 0
+}
+
+// The same with the lattice's share. What is there without it is found where some of that is left: by a loop, whose turns no pixel takes inside (interface/grid.glsl).
+vec3 ambientAt(Place at, vec3 n) {
+#if GRID && RUNG_AMBIENT != AMBIENT_NONE
+  vec4 lattice = gridAt(at.p, n);
+  vec3 sum = max(lattice.rgb, vec3(0.0)) * lattice.w;  // model: as above
+#if ENVIRONMENT || PROBES
+  for (float rest = 1.0 - lattice.w; rest > 0.0; rest = 0.0) sum += ambientAround(at, n) * rest;
+#endif
+  return sum;
+#else
+  return ambientAround(at, n);
+#endif
 }
 
 #if RUNG_ENVIRONMENT_SPECULAR != ENVIRONMENT_SPECULAR_NONE

@@ -14,6 +14,25 @@ FN vec3 irradianceSh(vec3 n, vec3 c0, vec3 c1, vec3 c2, vec3 c3, vec3 c4, vec3 c
   return linear + c4 * (n.x * n.y) + c5 * (n.y * n.z) + c6 * (R(3.0) * n.z * n.z - R(1.0)) + c7 * (n.x * n.z) + c8 * (n.x * n.x - n.y * n.y);
 }
 
+// Box-projected ambient light: a probe's light looked up where fixed directions from the point meet its box, seen from where it was captured. The corners of an icosahedron integrate bands up to 5
+// exactly, so that at the capture itself the light is that of the three bands. The cosine lobe, 1, 2/3 and 1/4 in the bands, is shared: the directions' weights take 1, 3/4 and 2/5 of what is looked up,
+// which takes the rest. Lookups of the bare light would ring, those of the whole irradiance would know little of the box (tests/probe/grid_box_test has the errors).
+#define AMBIENT_BOX_TAPS 12
+// Direction i, in the axes of the box.
+FN vec3 ambientTap(int i) {
+  real s = (i & 1) == 0 ? R(0.52573111211913361) : R(-0.52573111211913361);
+  real l = (i & 2) == 0 ? R(0.85065080835203993) : R(-0.85065080835203993);
+  if (i < 4) return vec3(s, l, R(0.0));
+  if (i < 8) return vec3(R(0.0), s, l);
+  return vec3(l, R(0.0), s);
+}
+// Its weight for a surface; cosine: of its angle with the normal.
+FN real ambientTapWeight(real cosine) { return (R(1.0) + R(3.0) * R(0.75) * cosine + R(5.0) * R(0.4) * (R(1.5) * cosine * cosine - R(0.5))) * (R(1.0) / R(12.0)); }
+// What is looked up: irradiance with that kernel taken out of its bands.
+FN vec3 irradianceBands(vec3 d, vec3 c0, vec3 c1, vec3 c2, vec3 c3, vec3 c4, vec3 c5, vec3 c6, vec3 c7, vec3 c8) {
+  return c0 + (c1 * d.y + c2 * d.z + c3 * d.x) * R(1.3333333333333333) + (c4 * (d.x * d.y) + c5 * (d.y * d.z) + c6 * (R(3.0) * d.z * d.z - R(1.0)) + c7 * (d.x * d.z) + c8 * (d.x * d.x - d.y * d.y)) * R(2.5);
+}
+
 // The share of a prefiltered reflection that the surface reflects, for one channel, by the rung: Schlick's F(n·v); the same held down on rough surfaces,
 // F0 + (max(1 - r, F0) - F0)(1 - n·v)^5 (Lagarde 2011, "Adopting a physically based shading model"); the lobe's own albedo F0 · scale + bias (Karis 2013, eq. 8).
 FN real environmentReflectance(Surface m, real f0, int rung, int fresnel) {

@@ -64,3 +64,16 @@ FN vec4 occlusionCase(vec3 n, vec3 v, vec3 direction, vec3 d) {
   addOccluder(o, s, d * R(1.5) + v * R(0.3), R(1.0), R(0.25), R(0.1));
   return vec4(s.weight * occlusionSeeable(s), s.weight * o.lost, s.weight, s.weight * o.cosHorizon);
 }
+
+// A place in a lattice of 4 x 3 x 1 points: the lattice's weight there, one point's trilinear share, how much of it lies before the surface, and how much before a plane and its neighbours.
+FN vec4 gridCase(vec3 q, real height, vec4 plane, vec3 away, vec2 f) {
+  GridCell c = gridCell(q, vec3(R(3.0), R(2.0), R(0.0)), vec3(R(2.0), R(4.0), R(1.0)));
+  real before = gridBefore(plane, away);
+  return vec4(c.weight, gridShare(c, vec3(R(1.0), R(0.0), R(0.0))), gridInFront(height, R(20.0)), gridSees(before, R(1.0), R(1.0), before, f) * gridTrust(before));
+}
+
+// One lookup of the box-projected variation of ambient light.
+FN vec3 ambientBoxCase(vec3 n, int tap, vec3 c0, vec3 c1, vec3 c2, vec3 c3) {
+  vec3 d = ambientTap(tap);
+  return irradianceBands(d, c0, c1, c2, c3, c1, c2, c3, c0, c1) * ambientTapWeight(dot(n, d));
+}

@@ -49,6 +49,8 @@ Errors errorsOf(const Row& row, std::span<const Case> cases, std::span<const glm
 
 /// Rungs that are no function of numbers, and what tests them.
 const std::map<std::string, const char*> kElsewhere = {
+    {"ambient-source=probes", "records that are read (tests/probe)"},
+    {"ambient-source=grid", "buffers that are read (tests/probe); its functions have rows"},
     {"reflection=infinite", "the direction as it is"},
     {"reflection=box", "its functions are held against ray-box in double, through GLSL too (tests/probe)"},
     {"reflection=box-rough", "its functions are held against ray-box in double, through GLSL too (tests/probe)"},

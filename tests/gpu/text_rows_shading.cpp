@@ -70,6 +70,8 @@ const Domain kSlices{"slices of the hemisphere",
                        while (std::abs(glm::dot(t, v)) > 0.999f) t = randomUnit(random);
                        return Case{glm::vec4(hardNear(random, v), 0), glm::vec4(v, 0), glm::vec4(t, 0), glm::vec4(hardUnit(random) * std::pow(10.0f, uniform(random, -20, 9)), 0)};
                      }};
+/// a: a place in a lattice, and a height; b: a plane; c: a way to it; d: where between texels.
+const Domain kLattice = numbers("lattices", {kAny, kAny, kAny, kAny, kUnit, kUnit, kUnit, kUnit, kUnit, kUnit, kUnit, kZero, kUnit, kUnit});
 const Domain kTable = numbers("tables of albedo", {kCosine, kAlpha, kUnit});
 const Domain kSampling = numbers("sampling", {kRandom, kRandom, kAlpha, kSin2, kAlpha, kInteger});
 const Domain kLight = numbers("lights", {kDistance2, kUnit, kUnit, kZero, kAny, kAny, kAny});
@@ -136,6 +138,17 @@ void addSurroundings(std::vector<Row>& rows) {
                                              glm::abs(glm::dvec3(b.w, c.w, d.w)) + 2.0 * glm::abs(glm::dvec3(a.w, e.w, f.w)) + glm::abs(glm::dvec3(b.y, c.z, d.x)) + glm::abs(glm::dvec3(e.z, f.x, b.x));
                       return Ranges{{{-sum.x, sum.x}, {-sum.y, sum.y}, {-sum.z, sum.z}}};
                     }});
+  const auto boxCeiling = [](const Row&, const Case& in) {
+    // Bands as above, by 4/3 and 5/2; a weight is at most (1 + 9/4 + 2)/12.
+    const glm::dvec3 b = glm::abs(glm::dvec3(in[1])), c = glm::abs(glm::dvec3(in[2])), d = glm::abs(glm::dvec3(in[3])), e = glm::abs(glm::dvec3(in[4]));
+    const glm::dvec3 most = 0.4375 * (b + 4.0 / 3 * (c + d + e) + 2.5 * (c + d + 2.0 * e + b + c)) * (1 + 1e-6);
+    return Ranges{{{-most.x, most.x}, {-most.y, most.y}, {-most.z, most.z}}};
+  };
+  for (const int tap : {0, 5, 11})
+    rows.push_back({rungName("ambient", AMBIENT_BOX) + fmt::format(", direction {}", tap), {rungName("ambient", AMBIENT_BOX)}, &kHarmonics, TEXT(vec4(ambientBoxCase(vec3(a), rung, vec3(b), vec3(c), vec3(d), vec3(e)), R(0.0))), {}, tap,
+                    {" of the coefficients' sum", [](const Row& row, const Case& in, const glm::dvec4&, int k) { return std::max(row.ranges(row, in)[std::size_t(k)].hi, 1e-30); }}, 1e-6, boxCeiling});
+  rows.push_back({"gridCell, gridShare, gridInFront, gridBefore, gridSees, gridTrust", {}, &kLattice, TEXT(gridCase(vec3(a), a.w, b, vec3(c), vec2(d.x, d.y))), {}, 0, absolute(), 3e-5, within(0, 1 + 1e-6)});
+  rows.push_back({"distanceTexel, distanceDirection", {}, &kVectors, TEXT(vec4(distanceDirection(distanceTexel(vec3(a), R(16.0)).x, distanceTexel(vec3(a), R(16.0)).y, R(16.0)), R(0.0))), {}, 0, absolute(), 2e-6, within(-1, 1)});
   for (int i = SPECULAR_OCCLUSION_NONE; i <= SPECULAR_OCCLUSION_LAGARDE; ++i)
     rows.push_back({rungName("specular-occlusion", i), {rungName("specular-occlusion", i)}, &kOcclusion, TEXT(vec4(specularOcclusion(a.x, a.y, a.z, rung), R(0.0), R(0.0), R(0.0))), {}, i, absolute(),
                     1.2e-6, ranges({0, 1})});

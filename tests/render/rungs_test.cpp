@@ -16,7 +16,7 @@ constexpr glm::ivec2 kSize{96, 72};
 /// What every term has an effect on: gold with tangents and baked occlusion, plastic, a narrow lobe; a light and uneven surroundings. With details the gold is brushed and the plastic rough:
 /// each of the two doubles the lighting programs.
 struct Exhibition : Workshop {
-  explicit Exhibition(bool details = false, bool captured = false) {
+  explicit Exhibition(bool details = false, bool captured = false, bool lattice = false) {
     std::vector<Id<Instance>> all;
     scene.instances.each([&](Id<Instance> id, const Instance&) { all.push_back(id); });
     for (Id<Instance> id : all) scene.instances.remove(id);
@@ -53,6 +53,7 @@ struct Exhibition : Workshop {
         for (int c = 0; c < 3; ++c) map.f32()[(y * 32 + x) * 3 + c] = float(2 + 1.5 * std::cos(0.4 * (x - 5)) + (y < 8 ? 3 - c : 0.3 * c));
     ++scene.environment.revision;
     if (captured) addPlace();
+    if (lattice) addLattice();
   }
   // A place around all of it, captured off its middle: bright toward +x, in each level as wide as its roughness.
   void addPlace() {
@@ -66,9 +67,27 @@ struct Exhibition : Workshop {
     REQUIRE(cube);
     p.radiance = std::move(*cube);
     p.irradiance[0] = {1, 1, 1};
+    p.irradiance[3] = {0.5, 0.4, 0.3};
+    p.irradiance[4] = {0.2, -0.1, 0.3};
     p.halfSize = {2.5, 1.5, 2};
     p.capture = {-1.2, 0.4, 0.7};
     scene.probes.reflections.push_back(std::move(p));
+    ++scene.probes.revision;
+  }
+  // A lattice over it, of other light.
+  void addLattice() {
+    AmbientGrid g;
+    g.origin = {-2, -1, -2};
+    g.spacing = {1, 1, 1};
+    g.counts = {5, 3, 5};
+    for (int i = 0; i < 75; ++i) {
+      AmbientGrid::Point& p = g.points.emplace_back();
+      p.valid = true;
+      p.irradiance[0] = vec3(2, 1 + 0.1f * float(i % 5), 0.5f);
+      p.irradiance[1] = vec3(0.3f);
+      p.distances.assign(AmbientGrid::kDistanceSize * AmbientGrid::kDistanceSize, {2, 4});
+    }
+    scene.probes.grid = std::move(g);
     ++scene.probes.revision;
   }
 };
@@ -125,7 +144,7 @@ Quality besideOf(std::string_view term) {
 
 TEST_CASE("every rung of every term: finite, seen where it must be, and only lighting programs are linked for it", "[sweep]") {
   Stage stage;
-  const Exhibition plain, detailed(true), captured(false, true);
+  const Exhibition plain, detailed(true), captured(false, true), latticed(false, true, true);
   RenderRequest request;
   request.output = Output::Linear;
   request.countNonfinite = true;
@@ -134,7 +153,8 @@ TEST_CASE("every rung of every term: finite, seen where it must be, and only lig
   for (std::size_t t = 0; t < terms().size(); ++t) {
     if (terms()[t].picture) continue;
     const bool details = terms()[t].name == "anisotropy" || terms()[t].name == "rough-diffuse", occlusion = terms()[t].name == "occlusion";
-    const Exhibition& e = details ? detailed : terms()[t].name == "reflection" ? captured : plain;
+    const std::string_view name = terms()[t].name;
+    const Exhibition& e = details ? detailed : name == "reflection" || name == "ambient" ? captured : name == "ambient-source" ? latticed : plain;
     const Quality beside = besideOf(terms()[t].name);
     const FramePlan usual = planOf(e.scene, e.view, beside, stage.renderer->capabilities());
     REQUIRE(stage.renderer->warmUp(usual));

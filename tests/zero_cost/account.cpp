@@ -26,6 +26,8 @@ struct TableRow {
 constexpr TableRow kTables[] = {
     {"environment picture", "environment"},
     {"tiles", "light lists"},
+    {"ambient lattice, ", "ambient lattice"},
+    {"lattice data", "ambient lattice"},
     {"mesh ", "meshes"},
     {"draw data", "meshes"},
     {"vertices", "meshes"},
@@ -44,7 +46,7 @@ constexpr TableRow kTables[] = {
     {"casters", "shadow_maps"},
 };
 /// Written anew in every frame, at most once a view.
-constexpr std::string_view kStreams[] = {"frame data", "draw data", "lights", "light lists", "tiles", "shadow data", "probe records", "tiles, probes"};
+constexpr std::string_view kStreams[] = {"frame data", "draw data", "lights", "light lists", "tiles", "shadow data", "probe records", "tiles, probes", "lattice data"};
 /// Calls that wait for the GPU or ask it, and where a plan says that they may be.
 struct AskRow {
   std::string_view pass, call;

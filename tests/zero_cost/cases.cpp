@@ -134,6 +134,25 @@ constexpr EffectCase kReflectionProbes{"reflection_probes",
                                          s.scene.probes.reflections.push_back(std::move(p));
                                          ++s.scene.probes.revision;
                                        }};
+constexpr EffectCase kAmbientGrid{"ambient_grid",
+                                  [](Subject& s) {
+                                    s.scene.probes.grid.reset();
+                                    ++s.scene.probes.revision;
+                                  },
+                                  [](Subject& s) {
+                                    AmbientGrid& g = s.scene.probes.grid.emplace();
+                                    g.origin = {-2, -1, -2};
+                                    g.spacing = {2, 1, 2};
+                                    g.counts = {3, 3, 3};
+                                    for (int i = 0; i < 27; ++i) {
+                                      AmbientGrid::Point& p = g.points.emplace_back();
+                                      p.valid = true;
+                                      p.irradiance[0] = vec3(0.5f + 0.1f * float(i % 4), 0.6f, 0.7f);
+                                      p.irradiance[1] = vec3(0.1f * float(i % 3));
+                                      p.distances.assign(AmbientGrid::kDistanceSize * AmbientGrid::kDistanceSize, {3, 9});
+                                    }
+                                    ++s.scene.probes.revision;
+                                  }};
 constexpr EffectCase kBackground{"background", [](Subject& s) { s.scene.environment.background = false; }, [](Subject& s) { setEnvironment(s, 1, true); }};
 
 constexpr EffectCase kSunDisc{"sun_disc", [](Subject& s) { s.scene.environment.sun.reset(); },
@@ -192,6 +211,7 @@ constexpr EffectCase kCases[] = {
     kShadows,
     kEnvironmentLighting,
     kReflectionProbes,
+    kAmbientGrid,
     kBackground,
     kBakedOcclusion,
     kSunDisc,

@@ -25,7 +25,8 @@ enum class Fresnel : std::uint8_t { None, Schlick, SphericalGaussian, Dielectric
 enum class Diffuse : std::uint8_t { Lambert, LambertFresnel, CoupledFit, Coupled, OrenNayarQualitative, OrenNayar, OrenNayarEnergy };
 enum class Compensation : std::uint8_t { None, MultipleScattering };
 enum class EnvironmentSpecular : std::uint8_t { None, Schlick, RoughSchlick, Dfg, Sampled };
-enum class Ambient : std::uint8_t { None, Constant, ShL1, ShL2 };
+enum class Ambient : std::uint8_t { None, Constant, ShL1, ShL2, Box };
+enum class AmbientSource : std::uint8_t { Probes, Grid };  ///< where the scene has an ambient lattice (docs/probes.md)
 enum class Reflection : std::uint8_t { Infinite, Box, BoxRough };  ///< of captured places (docs/probes.md)
 enum class Occlusion : std::uint8_t { None, Baked, Screen4, Screen8, Screen16 };  ///< the screen's rungs take baked occlusion too, where it is the darker
 enum class SpecularOcclusion : std::uint8_t { None, Ao, Lagarde };
@@ -51,6 +52,7 @@ struct Quality {
   Compensation compensation = Compensation::None;
   EnvironmentSpecular environmentSpecular = EnvironmentSpecular::Dfg;
   Ambient ambient = Ambient::ShL2;
+  AmbientSource ambientSource = AmbientSource::Grid;
   Reflection reflection = Reflection::Box;
   Occlusion occlusion = Occlusion::Baked;
   SpecularOcclusion specularOcclusion = SpecularOcclusion::Lagarde;
