@@ -163,8 +163,8 @@ Result<GLuint> LightingPass::dfgTable(const Quality& quality) {
 }
 
 Result<void> LightingPass::bindSurroundings(FrameContext& c, int environmentUnit) {
-  const bool environment = c.plan.on("environment_lighting"), places = plan::reads(c.plan, "probe records") || plan::reads(c.plan, "ambient lattice");
-  if (plan::needsDfg(c.quality, environment || places)) {
+  const bool environment = c.plan.on("environment_lighting"), probes = plan::reads(c.plan, "probe records");
+  if (plan::needsDfg(c.quality, environment || probes, plan::reads(c.plan, "ambient lattice"))) {
     auto table = dfgTable(c.quality);
     if (!table) return fail(table.error());
     c.device.gl.BindTextureUnit(UNIT_DFG, *table);
