@@ -106,7 +106,6 @@ Result<void> uploadProbeRecords(FrameContext& c) {
 }
 
 void bindProbes(FrameContext& c) {
-  if (!plan::reads(c.plan, "probe records")) return;
   c.buffers.probes.bind(UNIT_PROBES);
   if (!c.probeLight) return;
   c.probeLight->cubes.bind(UNIT_PROBE_CUBES);

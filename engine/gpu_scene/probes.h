@@ -19,7 +19,7 @@ Result<GpuProbes> uploadProbeCubes(gl::Device& device, const ProbeSet& probes, c
 
 /// The records of the view's probes (interface/layout.h) into FrameBuffers::probes.
 Result<void> uploadProbeRecords(FrameContext& context);
-/// Binds records and cubes as the plan reads them; nothing where it reads none.
+/// Binds the records, and the cubes where the plan reads them.
 void bindProbes(FrameContext& context);
 
 }  // namespace burnish::gpu_scene

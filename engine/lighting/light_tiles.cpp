@@ -216,11 +216,14 @@ void TileCuller::buildLists(std::span<const scene::LocalLight> lights, std::size
   lists_.entries.clear();
   lists_.probes.clear();
   std::vector<std::uint8_t> seen(lights.size() + 1);
-  const auto addGroup = [&](int bucket, plan::Details details) {
-    TileGroup g{bucket, int(lists_.tiles.size()), 0, details};
+  bool some[] = {true, false, false};
+  for (const std::uint16_t count : probeCounts_) some[std::size_t(plan::placesOf(count))] = true;
+  const auto addGroup = [&](int bucket, plan::Places places, plan::Details details) {
+    if (!some[std::size_t(places)]) return;
+    TileGroup g{bucket, int(lists_.tiles.size()), 0, places, details};
     const std::uint8_t detail = bitsOf(details);
     for (std::size_t i = 0; i < tiles; ++i) {
-      if (slices_[i] == 0 || detail_[i] != detail) continue;
+      if (slices_[i] == 0 || detail_[i] != detail || (probes_.empty() ? plan::Places::None : plan::placesOf(probeCounts_[i])) != places) continue;
       const int own = shadowed_[i] ? plan::kLoopShadows : spots_[i] ? plan::kLoopSpots : detail > 0 && counts_[i] > 0 ? plan::kLoop : bucketOf(counts_[i]);
       if (own != bucket) continue;
       const std::size_t first = lists_.entries.size();
@@ -236,12 +239,12 @@ void TileCuller::buildLists(std::span<const scene::LocalLight> lights, std::size
     g.count = int(lists_.tiles.size()) - g.first;
     if (g.count > 0) lists_.groups.push_back(g);
   };
-  for (int bucket : plan::kTileBuckets) addGroup(bucket, {false, false});
-  addGroup(plan::kLoop, {false, false});
-  addGroup(plan::kLoopSpots, {false, false});
-  addGroup(plan::kLoopShadows, {false, false});
-  for (plan::Details details : plan::kDetailClasses)
-    for (int bucket : plan::kDetailBuckets) addGroup(bucket, details);
+  for (plan::Places places : plan::kPlaces) {
+    for (int bucket : plan::kTileBuckets) addGroup(bucket, places, {false, false});
+    for (int bucket : {plan::kLoop, plan::kLoopSpots, plan::kLoopShadows}) addGroup(bucket, places, {false, false});
+    for (plan::Details details : plan::kDetailClasses)
+      for (int bucket : plan::kDetailBuckets) addGroup(bucket, places, details);
+  }
   lists_.lightsInView = int(std::count(seen.begin(), seen.end(), 1));
   if (lists_.entries.empty()) lists_.entries.push_back(0);
 }
@@ -267,6 +270,7 @@ const TileLists& TileCuller::cull(const scene::ViewFrame& view, std::span<const 
   detail_.assign(depths.size(), 0);
   for (const DetailBox& box : details) markDetail(view, box);
   probes_.clear();
+  probeCounts_.clear();
   lists_.crowded = lists_.mostProbes = 0;
   if (probes) findProbes(view, *probes);
   buildLists(lights, shadowed);

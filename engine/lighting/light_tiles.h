@@ -31,6 +31,7 @@ using TileVertex = glm::ivec4;
 struct TileGroup {
   int bucket = 0;
   int first = 0, count = 0;  ///< in tiles
+  plan::Places places = plan::Places::None;  ///< that may light them
   plan::Details details{false, false};  ///< of what the tiles may show: either reads the target of details (plan::kDetailBuckets)
 };
 /// A box along the world's axes, relative to the eye (middle and half extents) around a surface with details.

@@ -162,9 +162,9 @@ Result<GLuint> LightingPass::dfgTable(const Quality& quality) {
   return t.id();
 }
 
-Result<void> LightingPass::bindSurroundings(FrameContext& c, int environmentUnit) {
-  const bool environment = c.plan.on("environment_lighting"), probes = plan::reads(c.plan, "probe records");
-  if (plan::needsDfg(c.quality, environment || probes, plan::reads(c.plan, "ambient lattice"))) {
+Result<void> LightingPass::bindSurroundings(FrameContext& c, int environmentUnit, bool places) {
+  const bool environment = c.plan.on("environment_lighting");
+  if (plan::needsDfg(c.quality, environment || places, plan::reads(c.plan, "ambient lattice"))) {
     auto table = dfgTable(c.quality);
     if (!table) return fail(table.error());
     c.device.gl.BindTextureUnit(UNIT_DFG, *table);
@@ -173,7 +173,7 @@ Result<void> LightingPass::bindSurroundings(FrameContext& c, int environmentUnit
     c.environment->cube.bind(GLuint(environmentUnit));
     c.device.gl.Enable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
   }
-  gpu_scene::bindProbes(c);
+  if (places) gpu_scene::bindProbes(c);
   gpu_scene::bindGrid(c);
   return {};
 }
@@ -189,11 +189,12 @@ Result<void> LightingPass::bindLights(FrameContext& c) {
   c.device.gl.BindSamplers(0, 10, nullptr);
   if (c.plan.on("local_lights")) lights_.bind(UNIT_LIGHTS);
   gpu_scene::bindShadows(c);
-  return bindSurroundings(c, UNIT_FORWARD_ENVIRONMENT);
+  return bindSurroundings(c, UNIT_FORWARD_ENVIRONMENT, plan::reads(c.plan, "probe records"));
 }
 
 Result<void> LightingPass::shadeTiles(FrameContext& c) {
   if (lists_->groups.empty()) return {};
+  const auto any = [this](bool (*of)(const TileGroup&)) { return std::any_of(lists_->groups.begin(), lists_->groups.end(), of); };
   const GladGLContext& gl = c.device.gl;
   auto framebuffer = c.lightFramebuffer(false);
   if (!framebuffer) return fail(framebuffer.error());
@@ -207,9 +208,8 @@ Result<void> LightingPass::shadeTiles(FrameContext& c) {
   const bool screen = c.plan.on("screen_occlusion"), occlusion = screen || c.plan.on("baked_occlusion"), environment = c.plan.on("environment_lighting");
   if (occlusion) c.targets.texture(screen ? "occlusion" : "gbuffer_c")->bind(UNIT_GBUFFER_C);
   if (const gl::Texture* detail = c.targets.texture("gbuffer_d")) detail->bind(UNIT_GBUFFER_D);
-  if (auto bound = bindSurroundings(c, UNIT_ENVIRONMENT); !bound) return bound;
-  // The group without lights comes first and reads none.
-  if (lists_->groups.back().bucket != 0) {
+  if (auto bound = bindSurroundings(c, UNIT_ENVIRONMENT, any([](const TileGroup& g) { return g.places != plan::Places::None; })); !bound) return bound;
+  if (any([](const TileGroup& g) { return g.bucket != 0; })) {
     lights_.bind(UNIT_LIGHTS);
     entries_.bind(UNIT_LIGHT_LISTS);
   }
@@ -218,6 +218,7 @@ Result<void> LightingPass::shadeTiles(FrameContext& c) {
   for (const TileGroup& g : lists_->groups) {
     plan::LightingVariant lighting{int(c.lights.directional.size()), environment, occlusion, c.view.orthographic};
     lighting.details = g.details;
+    lighting.places = g.places;
     const std::string name = plan::lightingProgram(g.bucket, c.quality, lighting).name;
     const gl::Program* program = c.programs.find(name);
     if (!program) return fail("frame plan", fmt::format("program '{}' is not in it", name), "report this as a fault of the engine");

@@ -36,8 +36,8 @@ class LightingPass {
   Result<void> uploadTileProbes(gpu_scene::FrameContext& context);
   /// Of the view's probes; none where the plan reads no records of them.
   static std::optional<std::vector<ProbeBox>> probeBoxes(const gpu_scene::FrameContext& context);
-  /// The environment and the lobe's table, where the quality reads them.
-  Result<void> bindSurroundings(gpu_scene::FrameContext& context, int environmentUnit);
+  /// The environment, captured places and the lobe's table, where the quality reads them. places: what is drawn may be lit by some.
+  Result<void> bindSurroundings(gpu_scene::FrameContext& context, int environmentUnit, bool places);
   Result<GLuint> dfgTable(const Quality& quality);
   void bindTiles();
   void bindProbeTiles();

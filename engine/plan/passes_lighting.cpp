@@ -59,6 +59,32 @@ void addLightClear(Builder& b) {
   b.pass("light_clear", kLightOwners, {}, {"light"});
 }
 
+namespace {
+
+// Programs of the tiles: one for each number of lights, the loops, and those of tiles that may show brushed or rough surfaces.
+void useTilePrograms(Builder& b, PassPlan& pass, const LightingVariant& lighting) {
+  const Situation& s = b.s;
+  const bool local = s.on("local_lights");
+  const auto has = [&](int bucket) { return bucket == 0 || (local && (bucket == kLoop || (bucket == kLoopSpots && s.facts.spots) || (bucket == kLoopShadows && s.shadows().locals))); };
+  for (int bucket : kTileBuckets) {
+    if (bucket > 0 && !local) break;
+    b.use(pass, lightingProgram(bucket, s.quality, lighting));
+    if (bucket >= s.facts.localLights) break;
+  }
+  for (int bucket : {kLoop, kLoopSpots, kLoopShadows})
+    if (has(bucket)) b.use(pass, lightingProgram(bucket, s.quality, lighting));
+  if (!s.detailTarget()) return;
+  LightingVariant detailed = lighting;
+  for (Details d : kDetailClasses) {
+    if ((d.brushed && !s.on("anisotropy")) || (d.rough && !s.on("rough_diffuse"))) continue;
+    detailed.details = d;
+    for (int bucket : kDetailBuckets)
+      if (has(bucket)) b.use(pass, lightingProgram(bucket, s.quality, detailed));
+  }
+}
+
+}  // namespace
+
 void addLighting(Builder& b) {
   const Situation& s = b.s;
   if (!s.hasDepth() || s.forward() || !s.lit() || !s.final()) return;
@@ -78,24 +104,13 @@ void addLighting(Builder& b) {
   }
   readSurroundings(s, pass);
   if (s.shadows().rung != Shadow::None) pass.reads.push_back("shadow_maps");
-  for (bool orthographic : s.projections()) {
-    for (int bucket : kTileBuckets) {
-      if (bucket > 0 && !local) break;
-      b.use(pass, lightingProgram(bucket, s.quality, s.lighting(orthographic)));
-      if (bucket >= s.facts.localLights) break;
+  for (bool orthographic : s.projections())
+    for (Places places : kPlaces) {
+      if (places != Places::None && (!s.probes() || (places == Places::Many && s.facts.probes < 2))) continue;
+      LightingVariant lighting = s.lighting(orthographic);
+      lighting.places = places;
+      useTilePrograms(b, pass, lighting);
     }
-    if (local) b.use(pass, lightingProgram(kLoop, s.quality, s.lighting(orthographic)));
-    if (local && s.facts.spots) b.use(pass, lightingProgram(kLoopSpots, s.quality, s.lighting(orthographic)));
-    if (s.shadows().locals) b.use(pass, lightingProgram(kLoopShadows, s.quality, s.lighting(orthographic)));
-    if (!s.detailTarget()) continue;
-    LightingVariant detailed = s.lighting(orthographic);
-    for (Details d : kDetailClasses) {
-      if ((d.brushed && !s.on("anisotropy")) || (d.rough && !s.on("rough_diffuse"))) continue;
-      detailed.details = d;
-      for (int bucket : kDetailBuckets)
-        if (bucket == 0 || (local && (bucket == kLoop || (bucket == kLoopSpots && s.facts.spots) || (bucket == kLoopShadows && s.shadows().locals)))) b.use(pass, lightingProgram(bucket, s.quality, detailed));
-    }
-  }
 }
 
 void addBackground(Builder& b) {

@@ -89,6 +89,7 @@ struct Situation {
   [[nodiscard]] bool reducesDepth() const { return options.tileBounds == TileBounds::Reduction || (options.tileBounds == TileBounds::Automatic && !caps.software); }
   /// The projections that views have: perspective (false), orthographic (true).
   [[nodiscard]] std::vector<bool> projections() const;
+  /// Of a tile that no captured place lights.
   [[nodiscard]] LightingVariant lighting(bool orthographic) const;
   /// The G-buffer has its target for brushed and rough surfaces.
   [[nodiscard]] bool detailTarget() const;

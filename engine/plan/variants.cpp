@@ -133,7 +133,7 @@ namespace {
 std::vector<std::string> shadeDefines(const Quality& q, const LightingVariant& lighting, bool locals) {
   const bool shadows = lighting.shadows.suns > 0 || locals;
   const shading::Rungs k = rungsOf(q);
-  const bool dfg = needsDfg(q, lighting.environment || lighting.probes, lighting.grid);
+  const bool dfg = needsDfg(q, lighting.environment || lighting.places != Places::None, lighting.grid);
   const prefilter::DfgTable table = dfg ? prefilter::dfgTable(prefilter::dfgIndex(k)) : prefilter::DfgTable{};
   return {define("DFG", dfg),
           define("DFG_HEIGHT", table.height),
@@ -144,8 +144,8 @@ std::vector<std::string> shadeDefines(const Quality& q, const LightingVariant& l
           define("FOG_AMBIENT", fogAmbient(q, lighting)),
           define("GRID", lighting.grid),
           define("ORTHOGRAPHIC", lighting.orthographic),
-          define("PROBES", lighting.probes),
-          define("RUNG_AMBIENT", lighting.surroundings() ? int(q.ambient == Ambient::Box && !lighting.probes ? Ambient::ShL2 : q.ambient) : 0),
+          define("PROBES", int(lighting.places)),
+          define("RUNG_AMBIENT", lighting.surroundings() ? int(q.ambient == Ambient::Box && lighting.places == Places::None ? Ambient::ShL2 : q.ambient) : 0),
           define("RUNG_COMPENSATION", k.compensation),
           define("RUNG_DIFFUSE", k.diffuse),
           define("RUNG_DIRECT_OCCLUSION", lighting.occlusion ? int(q.directOcclusion) : 0),
@@ -155,7 +155,7 @@ std::vector<std::string> shadeDefines(const Quality& q, const LightingVariant& l
           define("RUNG_GEOMETRY", k.geometry),
           define("RUNG_LOBE", k.lobe),
           define("RUNG_NORMALIZATION", k.normalization),
-          define("RUNG_REFLECTION", lighting.probes && q.environmentSpecular != EnvironmentSpecular::None ? int(q.reflection) : 0),
+          define("RUNG_REFLECTION", lighting.places != Places::None && q.environmentSpecular != EnvironmentSpecular::None ? int(q.reflection) : 0),
           define("RUNG_SPECULAR", k.specular),
           define("RUNG_SPECULAR_OCCLUSION", lighting.occlusion && lighting.surroundings() ? int(q.specularOcclusion) : 0),
           define("SHADOW", shadows ? int(lighting.shadows.rung) : 0),
@@ -180,6 +180,7 @@ ProgramPlan lightingProgram(int bucket, const Quality& quality, const LightingVa
   p.defines.push_back(define("TONEMAP", std::max(lighting.inPlace, 0)));
   std::sort(p.defines.begin(), p.defines.end());
   p.name += namesOf(lighting.details);
+  if (lighting.places != Places::None) p.name += lighting.places == Places::One ? "+place" : "+places";
   if (lighting.orthographic) p.name += "+ortho";
   return p;
 }

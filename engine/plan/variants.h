@@ -87,6 +87,11 @@ struct ShadowLighting {
   int suns = 0;         ///< directional lights that have them: the first ones
   bool locals = false;  ///< some point and spot lights have them
 };
+/// How many captured places may light what a program draws. A software renderer pays for a loop: one place has none.
+enum class Places : std::uint8_t { None, One, Many };
+inline constexpr Places kPlaces[] = {Places::None, Places::One, Places::Many};
+inline Places placesOf(int count) { return count == 0 ? Places::None : count == 1 ? Places::One : Places::Many; }
+
 /// What the lighting programs of a frame have in common.
 struct LightingVariant {
   int directional = 0;        ///< directional lights
@@ -99,9 +104,9 @@ struct LightingVariant {
   Details details{false, false};  ///< of what the program's tiles may show
   [[nodiscard]] bool detail() const { return details.brushed || details.rough; }
   ShadowLighting shadows{};
-  bool probes = false;        ///< captured places light the scene
-  bool grid = false;          ///< an ambient lattice does
-  [[nodiscard]] bool surroundings() const { return environment || probes || grid; }
+  Places places = Places::None;  ///< that may light what the program draws
+  bool grid = false;             ///< an ambient lattice lights the scene
+  [[nodiscard]] bool surroundings() const { return environment || places != Places::None || grid; }
 };
 /// Fog is there and lit by the surroundings.
 bool fogAmbient(const Quality& quality, const LightingVariant& lighting);

@@ -18,13 +18,13 @@ vec3 skyAmbientAt(vec3 n) {
 float lastLevel() { return frame.environment.x; }
 #endif
 #if PROBES
-void probesNear(vec3 p, out int list[MAX_TILE_PROBES]);
+int probesNear(vec3 p, out ivec4 list);
 #endif
 #include "lighting/shade.glsl"
 #if PROBES
 // Of all that are in view: the boxes that p lies in, or those within whose margins it lies. What tiles do to the boxes that meet them.
-void probesNear(vec3 p, out int list[MAX_TILE_PROBES]) {
-  list = int[MAX_TILE_PROBES](-1, -1, -1, -1);
+int probesNear(vec3 p, out ivec4 list) {
+  list = ivec4(0);
   int count = 0;
   bool inside = false;
   float slack = BURNISH_PROBE_SLACK * sqrt(dot(p, p));
@@ -32,13 +32,13 @@ void probesNear(vec3 p, out int list[MAX_TILE_PROBES]) {
     vec4 extent = texelFetch(probeRecords, i * PROBE_TEXELS + 3);
     float away = probeDistance(inBox(i * PROBE_TEXELS, p), extent.xyz + slack);
     bool first = away <= 0.0 && !inside;
-    if (first) list = int[MAX_TILE_PROBES](-1, -1, -1, -1);
     if (first) count = 0;
     inside = inside || first;
     if (count == MAX_TILE_PROBES || (inside ? away > 0.0 : away >= extent.w)) continue;
     list[count] = i;
     ++count;
   }
+  return count;
 }
 #endif
 #if FOG

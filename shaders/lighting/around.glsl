@@ -1,11 +1,18 @@
 // Light of the surroundings at a place: of captured places (shading/probes.h), and of the sky where they leave something to it. Pre-exposed.
-// The includer defines, where ENVIRONMENT is 1, skyAmbientAt(normal) and lastLevel() (of the sky's cube), and where PROBES is 1, probesNear(p, out list): records that may have a share at p,
-// smaller boxes before larger ones, -1 where the list ends.
-// Definitions: ENVIRONMENT (1: the sky gives light), PROBES (1: captured places do), GRID (1: an ambient lattice does), RUNG_AMBIENT, RUNG_ENVIRONMENT_SPECULAR, RUNG_REFLECTION, ENVIRONMENT_UNIT.
+// The includer defines, where ENVIRONMENT is 1, skyAmbientAt(normal) and lastLevel() (of the sky's cube), and where PROBES is not 0, probesNear(p, out list): how many records may
+// have a share at p (MAX_TILE_PROBES at most), and which, smaller boxes before larger ones. A software renderer saves the turns that a loop does not take, but
+// nothing of an if.
+// Definitions: ENVIRONMENT (1: the sky gives light), PROBES (1: one captured place may, 2: several), GRID (1: an ambient lattice does), RUNG_AMBIENT, RUNG_ENVIRONMENT_SPECULAR, RUNG_REFLECTION, ENVIRONMENT_UNIT.
 #if ENVIRONMENT || PROBES || GRID
 #define SURROUNDINGS 1
 #else
 #define SURROUNDINGS 0
+#endif
+// How many are looked at.
+#if PROBES == 1
+#define PLACES(at) 1
+#else
+#define PLACES(at) at.count
 #endif
 #if ENVIRONMENT && RUNG_ENVIRONMENT_SPECULAR != ENVIRONMENT_SPECULAR_NONE
 layout(binding = ENVIRONMENT_UNIT) uniform samplerCube environmentCube;
@@ -25,7 +32,8 @@ layout(binding = UNIT_PROBE_CUBES) uniform samplerCubeArray probeCubes;
 struct Place {
   vec3 p;
 #if PROBES
-  int probe[MAX_TILE_PROBES];
+  ivec4 probe;
+  int count;
   ProbeBlend blend;
 #endif
 };
@@ -41,12 +49,11 @@ Place placeAt(vec3 p) {
   Place at;
   at.p = p;
 #if PROBES
-  probesNear(p, at.probe);
+  at.count = probesNear(p, at.probe);
   at.blend = beginBlend();
   // A box is larger by what p may be rounded by.
   float slack = BURNISH_PROBE_SLACK * sqrt(dot(p, p));
-  for (int i = 0; i < MAX_TILE_PROBES; ++i) {
-    if (at.probe[i] < 0) break;
+  for (int i = 0; i < PLACES(at); ++i) {
     int record = at.probe[i] * PROBE_TEXELS;
     vec4 extent = texelFetch(probeRecords, record + 3);
     addToBlend(at.blend, i, inBox(record, p), extent.xyz + slack, texelFetch(probeRecords, record + 4).xyz, extent.w);
@@ -91,10 +98,7 @@ vec3 ambientAround(Place at, vec3 n) {
 #if ENVIRONMENT
   if (at.blend.sky > 0.0) sum = skyAmbientAt(n) * at.blend.sky;
 #endif
-  for (int i = 0; i < MAX_TILE_PROBES; ++i) {
-    if (at.blend.weight[i] <= 0.0) continue;
-    sum += probeAmbient(at.probe[i] * PROBE_TEXELS, at.p, n) * at.blend.weight[i];
-  }
+  for (int i = 0; i < PLACES(at); ++i) sum += probeAmbient(at.probe[i] * PROBE_TEXELS, at.p, n) * at.blend.weight[i];
 #elif ENVIRONMENT
   sum = skyAmbientAt(n);
 #endif
@@ -140,8 +144,7 @@ vec3 radianceAt(Place at, vec3 d, float roughness) {
 #if ENVIRONMENT
   if (at.blend.sky > 0.0) sum = textureLod(environmentCube, d, environmentLevel(roughness, lastLevel())).rgb * (frame.background.w * at.blend.sky);
 #endif
-  for (int i = 0; i < MAX_TILE_PROBES; ++i)
-    if (at.blend.weight[i] > 0.0) sum += probeRadiance(at.probe[i] * PROBE_TEXELS, at.p, d, roughness) * at.blend.weight[i];
+  for (int i = 0; i < PLACES(at); ++i) sum += probeRadiance(at.probe[i] * PROBE_TEXELS, at.p, d, roughness) * at.blend.weight[i];
 #elif ENVIRONMENT
   sum = textureLod(environmentCube, d, environmentLevel(roughness, lastLevel())).rgb * frame.background.w;
 #endif

@@ -27,7 +27,10 @@ float lastLevel() { return irradiance[6].a; }
 #endif
 #if PROBES
 layout(location = 30) flat in ivec4 tileProbes;
-void probesNear(vec3 p, out int list[MAX_TILE_PROBES]) { list = int[MAX_TILE_PROBES](tileProbes.x, tileProbes.y, tileProbes.z, tileProbes.w); }
+int probesNear(vec3 p, out ivec4 list) {
+  list = tileProbes;
+  return list.x < 0 ? 0 : list.y < 0 ? 1 : list.z < 0 ? 2 : list.w < 0 ? 3 : 4;
+}
 #endif
 #include "lighting/shade.glsl"
 #if TILE_LIGHTS > 0

@@ -8,7 +8,7 @@ layout(binding = UNIT_LIGHTS) uniform samplerBuffer lights;
 layout(binding = UNIT_LIGHT_LISTS) uniform usamplerBuffer lightLists;
 
 layout(location = 0) in ivec4 tile;  // x, y (tiles, from the viewport's corner), first entry in the lists, number of lights
-#if PROBES
+#if PROBES != 0
 layout(location = 1) in ivec4 probes;  // records that may light it, smaller boxes before larger ones; -1 where the list ends
 layout(location = 30) flat out ivec4 tileProbes;
 #endif

@@ -5,7 +5,7 @@
 #define PROBE_FACE_GAP (R(1.0) / R(1048576.0))
 // The least influence inside a box and the least distance outside (as a share of the margin) that shares are reckoned with: a box has its share on its very faces.
 #define PROBE_LEAST_SHARE (R(1.0) / R(1048576.0))
-// So many places have a share at a point.
+// So many places have a share at a point: ProbeBlend::weight has one component each.
 #define PROBES_BLENDED 4
 
 FN real probeFaceDistance(real p, real d, real extent) {
@@ -52,7 +52,7 @@ FN real probeDistance(vec3 p, vec3 extent) {
 
 // Shares of the places around a point and of the sky; they sum to 1.
 struct ProbeBlend {
-  real weight[PROBES_BLENDED];
+  vec4 weight;
   real sky;
   real left;      // what the boxes so far leave to larger ones
   real coverage;  // of the nearest box, while p is in none
@@ -61,7 +61,7 @@ struct ProbeBlend {
 
 FN ProbeBlend beginBlend() {
   ProbeBlend b;
-  for (int i = 0; i < PROBES_BLENDED; ++i) b.weight[i] = R(0.0);
+  b.weight = vec4(R(0.0));
   b.sky = R(1.0);
   b.left = R(1.0);
   b.coverage = R(0.0);
@@ -73,8 +73,7 @@ FN ProbeBlend beginBlend() {
 FN void addToBlend(INOUT(ProbeBlend) b, int slot, vec3 p, vec3 extent, vec3 fade, real margin) {
   real away = probeDistance(p, extent);
   if (away <= R(0.0)) {
-    if (!b.inside)
-      for (int i = 0; i < PROBES_BLENDED; ++i) b.weight[i] = R(0.0);
+    if (!b.inside) b.weight = vec4(R(0.0));
     b.inside = true;
     real influence = max(probeInfluence(p, extent, fade), PROBE_LEAST_SHARE);  // model: its share on its faces
     b.weight[slot] = influence * b.left;
@@ -87,9 +86,7 @@ FN void addToBlend(INOUT(ProbeBlend) b, int slot, vec3 p, vec3 extent, vec3 fade
 }
 
 FN void endBlend(INOUT(ProbeBlend) b) {
-  real sum = R(0.0);
-  for (int i = 0; i < PROBES_BLENDED; ++i) sum += b.weight[i];
   real all = b.inside ? R(1.0) : b.coverage;
-  for (int i = 0; i < PROBES_BLENDED; ++i) b.weight[i] *= all / max(sum, BURNISH_GUARD_LENGTH);
+  b.weight = b.weight * (all / max(b.weight.x + b.weight.y + b.weight.z + b.weight.w, BURNISH_GUARD_LENGTH));
   b.sky = R(1.0) - all;
 }

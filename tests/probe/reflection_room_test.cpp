@@ -205,3 +205,35 @@ TEST_CASE("light past the range of half floats stays", "[reflection]") {
       for (int c = 0; c < 3; ++c) worst = std::max(worst, std::abs(b.at(x, y)[c] / factor - a.at(x, y)[c]) / std::max(a.at(x, y)[c], 1e-9));
   CHECK(worst < 1e-5);
 }
+
+// One frame, two views: places light the one that sees them, and the other is as on its own.
+TEST_CASE("views side by side: each is lit by the places that it sees", "[reflection]") {
+  Stage stage;
+  Room room(1);
+  room.light(constantProbe(dvec3(6, 2, 1)), constantProbe(dvec3(1, 2, 6)));
+  Material m;
+  place(room.scene, sphere(1, 32, 64), m, translation({0, 0, 50}));
+  View in = room.view, out = lookAt({0, 1, 45}, {0, 0, 50});
+  in.viewport = {0, 0, 96, 96};
+  out.viewport = {96, 0, 96, 96};
+  for (const Path path : {Path::Deferred, Path::Forward}) {
+    RenderRequest request;
+    request.output = Output::Linear;
+    const View both[] = {in, out};
+    const Picture together = stage.draw(room.scene, both, {192, 96}, onPath(path), request);
+    CHECK(stage.renderer->lastPlan().on("reflection_probes"));
+    for (const View& view : both) {
+      const Picture alone = stage.draw(room.scene, {&view, 1}, {192, 96}, onPath(path), request);
+      CHECK(stage.renderer->lastPlan().on("reflection_probes") == (view.viewport.x == 0));
+      double worst = 0, most = 0;
+      for (int y = 0; y < 96; ++y)
+        for (int x = view.viewport.x; x < view.viewport.x + 96; ++x) {
+          const dvec3 d = glm::abs(alone.at(x, y) - together.at(x, y));
+          worst = std::max(worst, std::max({d.x, d.y, d.z}));
+          most = std::max(most, alone.at(x, y).y);
+        }
+      CHECK(most > 0.1);
+      CHECK(worst < 1e-5 * most);
+    }
+  }
+}
