@@ -163,8 +163,8 @@ Result<GLuint> LightingPass::dfgTable(const Quality& quality) {
 }
 
 Result<void> LightingPass::bindSurroundings(FrameContext& c, int environmentUnit, bool places) {
-  const bool environment = c.plan.on("environment_lighting"), grid = plan::reads(c.plan, "ambient lattice");
-  if (plan::needsDfg(c.quality, environment || places || grid)) {
+  const bool environment = c.plan.on("environment_lighting");
+  if (plan::needsDfg(c.quality, environment || places, plan::reads(c.plan, "ambient lattice"))) {
     auto table = dfgTable(c.quality);
     if (!table) return fail(table.error());
     c.device.gl.BindTextureUnit(UNIT_DFG, *table);
@@ -174,7 +174,7 @@ Result<void> LightingPass::bindSurroundings(FrameContext& c, int environmentUnit
     c.device.gl.Enable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
   }
   if (places) gpu_scene::bindProbes(c);
-  if (grid) gpu_scene::bindGrid(c);
+  gpu_scene::bindGrid(c);
   return {};
 }
 

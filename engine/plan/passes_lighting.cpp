@@ -16,7 +16,7 @@ void readSurroundings(const Situation& s, PassPlan& pass) {
   if (probes) pass.reads.emplace_back("probe records");
   if (s.on("ambient_grid")) pass.reads.emplace_back("ambient lattice");
   if (needsCube(s.quality, probes)) pass.reads.emplace_back("probe cubes");
-  if (needsDfg(s.quality, environment || probes || s.on("ambient_grid"))) pass.reads.emplace_back("dfg");
+  if (needsDfg(s.quality, environment || probes, s.on("ambient_grid"))) pass.reads.emplace_back("dfg");
 }
 
 void addTiles(Builder& b) {

@@ -119,8 +119,10 @@ ProgramPlan emissiveProgram(GeometryVariant variant, const Quality& quality, con
   return p;
 }
 
-bool needsDfg(const Quality& q, bool surroundings) {
-  return shading::needsAlbedoTable(rungsOf(q)) || (surroundings && (q.environmentSpecular == EnvironmentSpecular::Dfg || q.environmentSpecular == EnvironmentSpecular::Sampled));
+bool needsDfg(const Quality& q, bool reflections, bool ambient) {
+  if (shading::needsAlbedoTable(rungsOf(q))) return true;
+  const bool takes = q.diffuse == Diffuse::LambertFresnel || q.diffuse == Diffuse::OrenNayarQualitative || q.diffuse == Diffuse::OrenNayar;  // ambientShare() asks what reflections take
+  return (reflections || (ambient && takes)) && (q.environmentSpecular == EnvironmentSpecular::Dfg || q.environmentSpecular == EnvironmentSpecular::Sampled);
 }
 bool needsCube(const Quality& q, bool lights) { return lights && q.environmentSpecular != EnvironmentSpecular::None; }
 
@@ -131,7 +133,7 @@ namespace {
 std::vector<std::string> shadeDefines(const Quality& q, const LightingVariant& lighting, bool locals) {
   const bool shadows = lighting.shadows.suns > 0 || locals;
   const shading::Rungs k = rungsOf(q);
-  const bool dfg = needsDfg(q, lighting.surroundings());
+  const bool dfg = needsDfg(q, lighting.environment || lighting.places != Places::None, lighting.grid);
   const prefilter::DfgTable table = dfg ? prefilter::dfgTable(prefilter::dfgIndex(k)) : prefilter::DfgTable{};
   return {define("DFG", dfg),
           define("DFG_HEIGHT", table.height),

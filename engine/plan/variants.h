@@ -112,8 +112,8 @@ struct LightingVariant {
 bool fogAmbient(const Quality& quality, const LightingVariant& lighting);
 /// What emits, through the fog if there is any.
 ProgramPlan emissiveProgram(GeometryVariant variant, const Quality& quality, const LightingVariant& lighting);
-/// The lobe's table (prefilter/dfg.h) is read. surroundings: the sky, captured places or a lattice light the scene.
-bool needsDfg(const Quality& quality, bool surroundings);
+/// The lobe's table (prefilter/dfg.h) is read. reflections: the sky or captured places light the scene; ambient: a lattice does.
+bool needsDfg(const Quality& quality, bool reflections, bool ambient);
 /// The prefiltered cube, of the sky or of captured places, is read where that lights the scene.
 bool needsCube(const Quality& quality, bool lights);
 
