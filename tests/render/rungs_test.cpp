@@ -115,6 +115,10 @@ FramePlan planOf(const Scene& scene, const View& view, const Quality& quality, c
 
 bool shades(const ProgramPlan& p) { return p.name.starts_with("lighting/") || p.name.starts_with("forward"); }
 std::ptrdiff_t shadingPrograms(const FramePlan& plan) { return std::count_if(plan.programs.begin(), plan.programs.end(), shades); }
+/// Those of tiles that captured places may light: the others stay as they are when a rung of such light changes.
+std::ptrdiff_t placePrograms(const FramePlan& plan) {
+  return std::count_if(plan.programs.begin(), plan.programs.end(), [](const ProgramPlan& p) { return shades(p) && std::find(p.defines.begin(), p.defines.end(), "PROBES 0") == p.defines.end(); });
+}
 
 bool reads(const FramePlan& plan, std::string_view pass, std::string_view table) {
   const PassPlan* p = plan.pass(pass);
@@ -179,7 +183,9 @@ TEST_CASE("every rung of every term: finite, seen where it must be, and only lig
           CHECK((shades(program) || occlusion || details));
           CHECK_FALSE((shades(program) && details));  // those of other surfaces stay as they are
         }
-      if (!details && !plan.on("screen_occlusion")) CHECK(fresh >= shadingPrograms(plan));
+      const bool ofPlaces = name == "reflection" || (name == "ambient" && terms()[t].rungs[r].name == "box");
+      if (ofPlaces) REQUIRE(placePrograms(plan) > 0);
+      if (!details && !plan.on("screen_occlusion")) CHECK(fresh >= (ofPlaces ? placePrograms(plan) : shadingPrograms(plan)));
       const auto built = stage.renderer->warmUp(plan);
       REQUIRE(built);
       CHECK(std::ptrdiff_t(*built) == fresh - known);
