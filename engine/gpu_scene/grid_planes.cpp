@@ -17,6 +17,8 @@ constexpr int kSide = 4;  ///< directions along a side of a texel that stand for
 
 /// Depth behind a plane, over its distance, where light ends: rounding of half floats, and what means over a texel leave of the curve of 1/cos.
 constexpr double kSharp = 0.01;
+/// And as much more for each unit by which a texel's plane is off: what is cluttered hides nothing for sure. (Thrice as much, and light of the next room shows in corners.)
+constexpr double kUnsure = 8;
 /// A texel whose plane is off by more than this, as a share of its nearness, takes a neighbour's that is off by so much less.
 constexpr double kMixed = 0.5, kBetter = 0.3;
 
@@ -107,7 +109,7 @@ std::vector<dvec4> planesOf(const AmbientGrid::Point& point, double limit) {
         const Fit& other = fits[texelAt(x + k % 3 - 1, y + k / 3 - 1)];
         if (other.off < best->off && own > kMixed && other.off < kBetter * own) best = &other;
       }
-      planes.emplace_back(best->plane, 1 / (kSharp + 0.25 * std::min(best->off, 2.0)));
+      planes.emplace_back(best->plane, 1 / (kSharp + kUnsure * std::min(best->off, 2.0)));
     }
   return planes;
 }

@@ -14,9 +14,9 @@ void readSurroundings(const Situation& s, PassPlan& pass) {
   const bool environment = s.on("environment_lighting"), probes = s.probes();
   if (needsCube(s.quality, environment)) pass.reads.emplace_back("environment cube");
   if (probes) pass.reads.emplace_back("probe records");
-  if (s.on("ambient_grid")) pass.reads.emplace_back("ambient lattice");
+  if (s.grid()) pass.reads.emplace_back("ambient lattice");
   if (needsCube(s.quality, probes)) pass.reads.emplace_back("probe cubes");
-  if (needsDfg(s.quality, environment || probes, s.on("ambient_grid"))) pass.reads.emplace_back("dfg");
+  if (needsDfg(s.quality, environment || probes, s.grid())) pass.reads.emplace_back("dfg");
 }
 
 void addTiles(Builder& b) {

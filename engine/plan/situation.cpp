@@ -203,7 +203,7 @@ std::vector<bool> Situation::projections() const {
 }
 
 LightingVariant Situation::lighting(bool orthographic) const {
-  return {on("directional_lights") ? std::min(facts.directionalLights, MAX_DIRECTIONAL) : 0, on("environment_lighting"), on("baked_occlusion") || on("screen_occlusion"), orthographic, developsInPlace() ? int(quality.toneMap) : -1, on("fog"), on("local_lights"), {false, false}, shadows(), Places::None, on("ambient_grid")};
+  return {on("directional_lights") ? std::min(facts.directionalLights, MAX_DIRECTIONAL) : 0, on("environment_lighting"), on("baked_occlusion") || on("screen_occlusion"), orthographic, developsInPlace() ? int(quality.toneMap) : -1, on("fog"), on("local_lights"), {false, false}, shadows(), Places::None, grid()};
 }
 
 ShadowLighting Situation::shadows() const {

@@ -77,6 +77,8 @@ struct Situation {
   [[nodiscard]] bool lit() const { return on("directional_lights") || on("local_lights") || on("environment_lighting") || on("reflection_probes") || on("ambient_grid"); }
   /// Lighting looks captured places up.
   [[nodiscard]] bool probes() const { return on("reflection_probes") && facts.probes > 0; }
+  /// And the ambient lattice (which may be forced on where there is none).
+  [[nodiscard]] bool grid() const { return on("ambient_grid") && facts.has(Call::AmbientGrid); }
   /// Lighting writes what the display takes straight into the target: no effect needs the light buffer. Asked once all effects are judged.
   [[nodiscard]] bool developsInPlace() const;
   /// Fog is lit by suns or surroundings, so that it shows before an empty background too.
