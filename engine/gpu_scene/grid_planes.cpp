@@ -17,7 +17,7 @@ constexpr int kSide = 4;  ///< directions along a side of a texel that stand for
 
 /// Depth behind a plane, over its distance, where light ends: rounding of half floats, and what means over a texel leave of the curve of 1/cos.
 constexpr double kSharp = 0.01;
-/// And as much more for each unit by which a texel's plane is off: what is cluttered hides nothing for sure. (Thrice as much, and light of the next room shows in corners.)
+/// And as much more for each unit by which a texel's plane is off: what is cluttered hides nothing for sure. (At 14 light of the next room shows in corners: tests/probe/grid_leak_test.)
 constexpr double kUnsure = 8;
 /// A texel whose plane is off by more than this, as a share of its nearness, takes a neighbour's that is off by so much less.
 constexpr double kMixed = 0.5, kBetter = 0.3;

@@ -12,7 +12,7 @@ struct TemporaryFolder {
   TemporaryFolder() {
     std::string name = (std::filesystem::temp_directory_path() / "burnish-test-XXXXXX").string();
     REQUIRE(mkdtemp(name.data()) != nullptr);
-    path = name;
+    path = std::filesystem::canonical(name);
   }
   ~TemporaryFolder() {
     std::error_code ignored;

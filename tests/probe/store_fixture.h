@@ -14,26 +14,14 @@
 #include <random>
 #include <string>
 
+#include "gpu/temporary_folder.h"
+
 namespace store_test {
 
 namespace fs = std::filesystem;
 using namespace burnish;
 
-class Folder {
- public:
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "burnish-store-XXXXXX").string();
-    REQUIRE(::mkdtemp(name.data()) != nullptr);
-    path = fs::canonical(name);
-  }
-  ~Folder() {
-    std::error_code ignored;
-    fs::remove_all(path, ignored);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  fs::path path;
-};
+using Folder = burnish::test::TemporaryFolder;
 
 inline std::string textOf(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
