@@ -1,14 +1,155 @@
-// Measuring the engine on this machine: the hard cases with their bounds, and what each guard of the shading text costs in energy.
+// Measuring the engine on this machine: ground truth by path tracing, what every approximation costs and gets wrong, the quality that spends a time budget best, the hard cases with their
+// bounds, and what each guard of the shading text costs in energy.
 #pragma once
-#include <burnish/context.h>
-#include <burnish/result.h>
+#include <burnish/plan.h>
 
+#include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace burnish {
+
+// ---- Ground truth (docs/reference.md)
+
+struct ReferenceProgress {
+  int samples = 0, of = 0;   ///< of each pixel
+  double error = 0;          ///< estimated: rms over the picture of a pixel's standard error, over the picture's rms
+  double seconds = 0;        ///< wall time of this call
+};
+struct ReferenceOptions {
+  glm::ivec2 size{640, 360};   ///< pixels
+  int samples = 256;           ///< of each pixel, 1 to 1,000,000
+  double untilError = 0;       ///< stops once ReferenceProgress::error is below it (and 16 samples are in); 0: never
+  std::uint64_t seed = 1;      ///< another seed, other noise
+  int bounces = -1;            ///< surfaces that light may meet on its way, the one seen aside; 0: direct light alone; -1: no limit (Russian roulette)
+  bool pixelArea = true;       ///< samples spread over the pixel; false: all through its centre, as rasterization samples
+  int threads = 0;             ///< 0: one for each core; the picture does not depend on it
+  std::filesystem::path state; ///< what was traced so far is kept here (every half minute and at the end) and taken up again; empty: nowhere
+  std::function<bool(const ReferenceProgress&)> progress;  ///< called from the calling thread after each pass; false ends the work with what is there
+};
+/// A path-traced picture, rows from top to bottom, F32 with three channels.
+struct ReferencePicture {
+  Image radiance;  ///< cd/m²
+  Image direct;    ///< of it what light sources and surroundings bring without a bounce, emission of what is seen included
+  Image albedo, normal;  ///< of the first surface: diffuse albedo + F0, 0..1; world space, 0 where there is none
+  Image variance;  ///< of each pixel's mean, (cd/m²)²
+  int samples = 0;
+  double error = 0;  ///< as ReferenceProgress::error
+};
+/// Traces paths through the scene with the materials, lights, camera and shading text of the renderer: `quality` says which rungs shade (of specular, diffuse and Fresnel; the preset `exact` is the
+/// one to compare with). Multiple importance sampling of lights, surroundings and emissive surfaces (Veach 1997). Lights are occluded as castsShadow says; stand-ins, probes and baked occlusion have
+/// no part. Deterministic: the same options and scene give the same picture on any number of threads. Errors: a scene that is too large, a state file of other options.
+BURNISH_API Result<ReferencePicture> traceReference(const Scene& scene, const View& view, const Quality& quality, const ReferenceOptions& options, Report& report);
+/// One OpenEXR file with layers: R G B, direct.*, albedo.*, normal.*, variance.*; samples and error are in its header. Complete or absent.
+BURNISH_API Result<void> writeReference(const std::filesystem::path& file, const ReferencePicture& picture);
+/// Reads what writeReference wrote. Errors name the file and what is missing.
+BURNISH_API Result<ReferencePicture> readReference(const std::filesystem::path& file);
+
+// ---- What accuracy costs (docs/cost.md)
+
+/// A measured figure: the median of several, with quartiles.
+struct Spread {
+  double median = 0, low = 0, high = 0;
+  int count = 0;
+};
+/// How far a picture is from another. Pixels that are not finite in either do not count, and are counted.
+struct PictureError {
+  double rms = 0;         ///< of the linear difference, over the rms of the other; the noise of a path-traced one is taken off
+  double rmsSpread = 0;   ///< standard error of rms from that noise; 0 between two pictures of the renderer
+  double psnr = 0;        ///< dB, of the two as developed for a display; infinite where they are equal
+  double perceptual = 0;  ///< Butteraugli's 3-norm of the developed pictures (libjxl): 1 is a difference that is just seen
+  double p999 = 0;        ///< 99.9th percentile over pixels of |difference| / (other + its mean), luminance
+  double energy = 0;      ///< sum over sum of the other, less 1: above 0 it is too bright
+  long long skipped = 0;  ///< pixels that are not finite
+};
+/// One rung, or one setting of a choice.
+struct RungCost {
+  std::string name;          ///< "schlick"; of a choice "512"
+  bool inForce = false;      ///< the base quality has it
+  Spread passMs, frameMs;    ///< of the passes that it changes, and of the frame, the rest as in the base quality
+  Spread exactPassMs;        ///< the rest as in the preset `exact`; count 0 where that was not timed
+  PictureError exact;        ///< against the exact rung, the rest as in the base quality
+  PictureError exactRest;    ///< against the exact rung, the rest as in the preset `exact`
+  PictureError truth;        ///< against ground truth, the rest as in the base quality
+  bool dominated = false;    ///< another rung of the term is no slower and no less exact, and better in one by more than the spread
+  std::string note;          ///< why a figure is missing, or what else is to be said; may be empty
+  Image picture;             ///< U8 RGB, developed
+  Image difference;          ///< F32, one channel: |picture - exact| over the exposure's white, linear
+};
+struct TermCost {
+  std::string name, what;
+  std::string calledBy;      ///< what in the scene exercises it
+  bool choice = false;       ///< no term of the lighting equation: a size, a format, a layout
+  std::string exactRung;     ///< what errors count against
+  Image exactPicture;        ///< U8 RGB
+  std::vector<RungCost> rungs;
+};
+/// A whole quality, measured.
+struct FrontPoint {
+  Quality quality;
+  std::vector<std::string> settings;  ///< what differs from the base quality, "term=rung"
+  Spread ms;                          ///< of the frame
+  PictureError error;                 ///< against CostReport::against
+  bool dominated = false;             ///< not on the front
+};
+struct CostReport {
+  std::string scene, camera, command;  ///< command: what makes this report again
+  glm::ivec2 size{0};
+  Capabilities machine;
+  std::string backend, cpu;
+  std::string clock;                   ///< "CPU time" (software renderers) or "GPU time": what ms are
+  std::string against;                 ///< "ground truth" or "exact": what the front's errors count against
+  int referenceSamples = 0;
+  double referenceNoise = 0;
+  std::vector<TermCost> terms;
+  std::vector<FrontPoint> front;       ///< presets first, then what was tried, cheapest first
+  FrontPoint base, exact;              ///< the base quality and the preset `exact`
+  std::vector<std::pair<std::string, double>> contributors;  ///< of the base quality's error against ground truth: what closing each gap would take off rms, largest first
+  Image truthPicture, basePicture, exactPicture;  ///< U8 RGB, developed alike
+  Image baseDifference, exactDifference;  ///< F32, one channel, against ground truth
+  double differenceScale = 0;          ///< white of all difference pictures
+  double seconds = 0;                  ///< wall time that it took
+  std::vector<std::string> warnings;
+};
+struct CostOptions {
+  glm::ivec2 size{640, 360};
+  Quality base;                        ///< its exposure, if set, develops all pictures; else the base picture's automatic one
+  std::string baseName = "default";
+  const ReferencePicture* truth = nullptr;  ///< not owned; of `size`; none: errors against ground truth are left out
+  int rounds = 7;                      ///< pairs of frames, with the rung and without, at least 3
+  double minutes = 12;                 ///< wall time to spend; fewer rounds and no timings with the exact rest when it runs short; 0: no limit
+  std::vector<std::string> terms;      ///< these alone; empty: all that the scene exercises
+  bool choices = true;                 ///< sizes, formats and layouts too
+  std::string backend;                 ///< name for the report
+  std::function<bool(double share, std::string_view what)> progress;  ///< false ends the work with an error
+};
+/// Renders every rung of every term that the scene exercises in this view and holds time and error against the rest. The context must be current. Pictures are linear, without antialiasing,
+/// through pixel centres.
+BURNISH_API Result<CostReport> measureCost(const ProcAddress& getProcAddress, const Scene& scene, const View& view, const CostOptions& options, Report& report);
+
+struct BudgetOptions {
+  double ms = 0;                       ///< of the frame, in the report's clock; 0: by targetError
+  double targetError = 0;              ///< rms against CostReport::against
+  double minutes = 5;                  ///< wall time to spend
+  std::function<bool(double share, std::string_view what)> progress;
+};
+struct BudgetResult {
+  bool met = false;                    ///< false: nothing that was measured fits; `best` is the nearest
+  FrontPoint best;                     ///< measured, not added up
+  std::optional<FrontPoint> next;      ///< the cheapest that is better: what the next milliseconds would buy
+  int measured = 0;                    ///< combinations that were rendered
+};
+/// The set of rungs with the least error whose measured frame time fits (or the least time whose error fits). Starts from `cost`, whose front it extends by what it measures.
+BURNISH_API Result<BudgetResult> spendBudget(const ProcAddress& getProcAddress, const Scene& scene, const View& view, const CostOptions& options, const BudgetOptions& budget, CostReport& cost, Report& report);
+
+/// Into the folder: index.html (self-contained), cost.json, cost.csv, and plots as SVG and PNG. Each file complete or absent.
+BURNISH_API Result<void> writeCostReport(const std::filesystem::path& folder, const CostReport& cost, const std::vector<BudgetResult>& budgets, Report& report);
+
+// ---- Hard cases (docs/hard_cases.md)
 
 /// One hard case on one backend: it holds when `value` is finite and at most `bound`. Bounds come from the double-precision oracle or from geometry.
 struct StabilityCase {

@@ -4,6 +4,7 @@
 #include <burnish/result.h>
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -40,6 +41,9 @@ enum class Antialiasing : std::uint8_t { None, Edge, Temporal };
 enum class Bloom : std::uint8_t { None, Scatter };
 // Of how the lighting equation is sampled (docs/antialiasing.md).
 enum class SpecularAntialiasing : std::uint8_t { None, Geometric };
+// Of how a frame is stored (docs/storage.md).
+enum class NormalStorage : std::uint8_t { Oct8, Oct12, Oct16 };          ///< octahedral normals of the G-buffer, bits an axis
+enum class LightBuffer : std::uint8_t { R11G11B10, Rgba16F, Rgba32F };   ///< the format that radiance is gathered in
 
 struct Quality {
   Specular specular = Specular::Microfacet;          ///< the next four count for Microfacet alone; Lobe for every power of a cosine
@@ -68,6 +72,11 @@ struct Quality {
   int shadowCascades = 4;       ///< maps of a directional light, 1 to 4, each for a range of distances from the eye
   float shadowDistance = 0;     ///< metres from the eye up to which directional lights have shadows; 0: as far as there is something to see
   int shadowMaps = 64;          ///< of one view, 1 to 1024; a directional light takes shadowCascades, a spot light 1 (6 when wider than 60 degrees from its axis), a point light up to 6
+
+  NormalStorage normalStorage = NormalStorage::Oct12;
+  LightBuffer lightBuffer = LightBuffer::Rgba16F;
+  /// Pixels that are shaded along a side, over those of the target: 0.25 to 1. What is drawn smaller is enlarged before it is tone mapped.
+  float resolutionScale = 1;
 
   Antialiasing antialiasing = Antialiasing::None;
   SpecularAntialiasing specularAntialiasing = SpecularAntialiasing::None;
@@ -120,6 +129,12 @@ BURNISH_API Result<void> setPreset(Quality& quality, std::string_view name);
 BURNISH_API std::string forwardOnlyRung(const Quality& quality);
 /// What the settings ask for that has no effect beside the others ("normalization=plus-8 has no effect with geometry=kelemen"), one text each.
 BURNISH_API std::vector<std::string> idleRungs(const Quality& quality);
+
+/// Everything in `quality` but the exposure, as a JSON file that people can edit: rungs by name, sizes as numbers. Complete or absent. `comment`: a line for people, may be empty.
+BURNISH_API Result<void> writeQuality(const std::filesystem::path& file, const Quality& quality, std::string_view comment = {});
+/// Reads what writeQuality wrote. What the file does not name is as in `base` there (a preset), else in the preset `default`; the exposure is left empty. Errors name the file, the place and what
+/// there is: damaged JSON, names that are not known, numbers out of their range.
+BURNISH_API Result<Quality> readQuality(const std::filesystem::path& file);
 
 /// Names as the command line spells them, in the order of the enums.
 BURNISH_API std::span<const std::string_view> toneMapNames();
