@@ -939,10 +939,35 @@ class Bake(Program):
 
 class Doctor(Program):
     def test_doctor(self):
-        text = self.good("doctor").stdout
-        for word in "egl", "osmesa", "glfw", "renderer", "largest texture":
+        # Capabilities of all backends; the hard cases once, on the one named (Stability runs them all).
+        text = self.good("doctor", "--no-cases").stdout
+        for word in "egl", "osmesa", "glfw", "renderer", "largest texture", "anisotropic filtering", "trial frame", "threads", "hard cases":
             self.assertIn(word, text)
-        self.assertNotIn("glfw", self.good("doctor", "--backend", "egl").stdout)
+        self.assertLess(len(text.splitlines()), 70)
+        self.assertNotIn("glfw", self.good("doctor", "--no-cases", "--backend", "egl").stdout)
+
+    def test_json(self):
+        file = self.out / "doctor.json"
+        self.good("doctor", "--no-cases", "--json", file)
+        report = json.loads(file.read_text())
+        self.assertEqual(list(report), ["schema_version", "program", "system", "processor", "threads", "backends"])
+        names = [b["backend"] for b in report["backends"]]
+        self.assertEqual(names, ["egl", "osmesa", "glfw"])
+        for backend in report["backends"]:
+            if not backend["usable"]:
+                self.assertTrue(backend["error"])
+                continue
+            self.assertGreater(backend["trial"]["programs"], 3)
+            self.assertGreater(backend["trial"]["frame_ms"], 0)
+            self.assertEqual(backend["trial"]["nonfinite_pixels"], 0)
+            self.assertEqual(backend["failed"], 0)
+        self.assertEqual(json.loads(self.good("doctor", "--no-cases", "--backend", "egl", "--json", "-").stdout)["backends"][0]["backend"], "egl")
+
+    def test_a_backend_that_is_named_must_open(self):
+        environment = {**os.environ, "DISPLAY": ":987", "WAYLAND_DISPLAY": ""}
+        result = self.run_it("doctor", "--backend", "glfw", "--quick", env=environment)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("not available", result.stdout)
 
 
 class Render(Program):
@@ -1107,7 +1132,7 @@ class Stability(Program):
         if SANITIZED:  # tests/hard_cases runs the same table
             return
         file = self.out / "stability.json"
-        result = self.good("stability", "-o", file)
+        result = self.good("stability", "--quick", "-o", file)
         table = json.loads(file.read_text())
         self.assertEqual(list(table), ["schema_version", "cases", "guards"])
         for row in table["cases"]:
@@ -1118,11 +1143,35 @@ class Stability(Program):
             self.assertTrue({"name", "value", "reason", "worst_energy_loss"} <= set(row))
         self.assertIn(f"{len(table['cases'])} of {len(table['cases'])} hold", result.stdout)
 
+    def test_chosen_cases(self):
+        result = self.good("stability", "--backend", "egl", "--case", "H15", "--case", "H4", "--quick", "-o", self.out / "some.json")
+        table = json.loads((self.out / "some.json").read_text())
+        self.assertEqual({row["id"] for row in table["cases"]}, {"H4", "H15"})
+        self.assertEqual(table["guards"], [])
+        self.assertNotIn("guard ledger", result.stdout)
+        self.bad(2, "stability", "--case", "H99", says=["H99", "H29"])
+        self.bad(2, "stability", "--shaders", self.folder / "none")
+
+    def test_a_planted_fault_fails_its_case(self):
+        shaders = self.folder / "shaders" / "shading"
+        shaders.mkdir(parents=True)
+        text = (ROOT / "shaders/shading/environment.h").read_text()
+        fault = text.replace("R(-16.0) * unitClamp(alpha)", "R(-16.0) * sqrt(unitClamp(alpha))")
+        self.assertNotEqual(text, fault)
+        (shaders / "environment.h").write_text(fault)
+        result = self.run_it("stability", "--no-cpu", "--backend", "egl", "--case", "H15", "--shaders", self.folder / "shaders", "-o", self.out / "fault.json")
+        self.assertEqual(result.returncode, 1)
+        self.assertRegex(result.stdout, r"fails: 1 case: H15 \(egl\)")
+        failed = [row for row in json.loads((self.out / "fault.json").read_text())["cases"] if not row["pass"]]
+        self.assertIn("specular occlusion", failed[0]["case"])
+
     def test_a_backend_that_cannot_be_opened_fails(self):
         environment = {**os.environ, "DISPLAY": ":987", "WAYLAND_DISPLAY": ""}
-        result = self.run_it("stability", "--backend", "glfw", "--no-ledger", env=environment)
+        result = self.run_it("stability", "--backend", "glfw", "--no-cpu", "--no-ledger", "-o", self.out / "none.json", env=environment)
         self.assertEqual(result.returncode, 1)
         self.assertIn("FAILS", result.stdout)
+        row = json.loads((self.out / "none.json").read_text())["cases"][0]
+        self.assertEqual((row["id"], row["value"], row["pass"]), ("H28", None, False))
 
     def test_bad_output(self):
         self.bad(1, "stability", "-o", self.folder / "no" / "such.json", says="such.json")
