@@ -1,12 +1,12 @@
 // The sphere chart: what each rung gets wrong against the exact rung of its term, in rendered linear pictures, has the sign and size that docs/shading.md and the design's tables of numbers predict:
-// closed forms, or a double quadrature of the shading text. Forward path: normals and roughness are not rounded. With BURNISH_LONG=1 every rung, else a few.
+// closed forms, or a double quadrature of the shading text. Forward path: normals and roughness are not rounded.
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <iostream>
 #include <memory>
 #include <optional>
 #include <string_view>
+#include <tuple>
 
 #include "plan/rungs.h"
 #include "reference/oracle.h"
@@ -17,11 +17,6 @@ using namespace burnish::test;
 namespace f64 = burnish::shading::f64;
 
 namespace {
-
-bool everything() {
-  const char* wanted = std::getenv("BURNISH_LONG");
-  return wanted && std::string_view(wanted) == "1";
-}
 
 double alphaOfPower(double p) { return std::sqrt(2 / (p + 2)); }
 
@@ -299,24 +294,20 @@ std::size_t termNamed(std::string_view name) {
   FAIL("no term " << name);
   return 0;
 }
-std::vector<Choice> choices() {
-  std::vector<Choice> all;
-  for (const char* name : {"specular", "distribution", "geometry", "lobe", "fresnel", "diffuse", "compensation"}) {
-    const std::size_t t = termNamed(name);
-    for (std::size_t r = 0; r + 1 < terms()[t].rungs.size(); ++r)
-      if (!terms()[t].rungs[r].forwardOnly) all.push_back({t, r});
-  }
-  if (everything()) return all;
-  // The ones that are furthest off.
-  const std::vector<std::pair<std::string_view, std::string_view>> few = {{"specular", "phong"}, {"geometry", "void"}, {"fresnel", "none"}, {"diffuse", "lambert"}};
-  std::erase_if(all, [&](const Choice& c) { return std::find(few.begin(), few.end(), std::pair(terms()[c.term].name, terms()[c.term].rungs[c.rung].name)) == few.end(); });
-  return all;
-}
 /// The last rung that the chart's materials exercise.
 std::size_t exactRung(std::size_t term) {
   std::size_t last = terms()[term].rungs.size() - 1;
   while (last > 0 && terms()[term].rungs[last].forwardOnly) --last;
   return last;
+}
+
+std::vector<Choice> choices() {
+  std::vector<Choice> all;
+  for (const char* name : {"specular", "distribution", "geometry", "lobe", "fresnel", "diffuse", "compensation"}) {
+    const std::size_t t = termNamed(name);
+    for (std::size_t r = 0; r < exactRung(t); ++r) all.push_back({t, r});
+  }
+  return all;
 }
 
 }  // namespace
