@@ -78,8 +78,7 @@ Material matte() {
   m.albedo = vec3(0.8f);
   return m;
 }
-Result<Picture> occlusionOf(Studio& studio, const Scene& scene, const View& view, glm::ivec2 size) {
-  Quality q;
+Result<Picture> occlusionOf(Studio& studio, const Scene& scene, const View& view, glm::ivec2 size, Quality q = {}) {
   q.occlusion = Occlusion::Screen8;
   q.exposureEv = 0.0f;  // the debug view shows occlusion as it is, one byte
   RenderRequest request;
@@ -139,6 +138,33 @@ Result<Finding> bleeding(Studio& studio) {
       }
   }
   return worst;
+}
+
+// H22: a ball on a plane, all of it within half of the radius: the plane keeps 1 - (r/d)^3, the ball's form factor, where the eye sees what occludes.
+Result<Finding> formFactor(Studio& studio) {
+  constexpr glm::ivec2 size{240, 240};
+  constexpr double r = 0.12;
+  Scene scene;
+  place(scene, quad({0, 0, 0}, {0, 0, 20}, {20, 0, 0}), matte());
+  place(scene, sphere(96, 192), matte(), translation({0, r, 0}) * glm::dmat4(glm::dmat3(r)));
+  const View view = lookAt({0.4, 4, 3.2}, {0, 0, 0}, {0, 1, 0}, 0.8f);
+  Quality q;
+  q.occlusionRadius = 0.7f;
+  const auto p = occlusionOf(studio, scene, view, size, q);
+  if (!p) return fail(p.error());
+  double sum = 0;
+  int count = 0;
+  for (int y = 0; y < size.y; ++y)
+    for (int x = 0; x < size.x; ++x) {
+      const Ray ray = rayThrough(view, size, x + 0.5, y + 0.5);
+      const dvec3 at = ray.origin - ray.direction * (ray.origin.y / ray.direction.y), from = ray.origin - dvec3(0, r, 0);
+      const double along = glm::dot(from, ray.direction), near2 = glm::dot(from, from) - along * along;
+      if (near2 < r * r * 1.04 || glm::length(at) > 0.25 || at.z < 0) continue;
+      sum += std::abs(p->at(x, y).x - (1 - std::pow(r / glm::length(at - dvec3(0, r, 0)), 3)));
+      ++count;
+    }
+  if (count < 100) return fail("H22", fmt::format("only {} pixels of the plane", count));
+  return Finding{sum / count, fmt::format("{} pixels", count)};
 }
 
 Result<Finding> positions(Studio& studio) {
@@ -235,6 +261,7 @@ std::vector<PictureCase> screenPictureCases() {
           {"H20", "the same: light off that of 144 samples a pixel, share", 0.1, [measured](Studio& s) { return measured(s, &Motion::light); }, true},
           {"H22", "screen occlusion of a lone plane, 0 to 89.8 degrees, up to the far plane: light that it loses", 2.5 / 255, lonePlane, true},
           {"H22", "screen occlusion of panels before a far wall and of a ball before the sky: light that they lose", 0.02, bleeding, true},
+          {"H22", "screen occlusion (8 samples a pixel) of a ball on a plane: off its form factor, mean of the pixels around it", 0.06, formFactor, true},
           {"H23", "position from depth at 1 m, 1 km and 100 km, eye up to 1e6 m from the origin: error, share of the distance", 1e-6, positions}};
 }
 

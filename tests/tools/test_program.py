@@ -19,6 +19,7 @@ import unittest
 import unittest.mock
 
 BURNISH = ""
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 SUBCOMMANDS = ["render", "plan", "bake", "prefilter", "inspect", "doctor", "stability"]
 SANITIZED = os.environ.get("BURNISH_SANITIZED") == "1"
 RENDER_KEYS = ["schema_version", "backend", "renderer", "size", "frames", "timing_mode", "frame_ms", "frame_cpu_ms", "passes", "effects", "programs",
