@@ -29,7 +29,8 @@ struct PathRay {
 enum class Passage : std::uint8_t {
   Opaque,
   Blend,  ///< the pigment lets a share through, straight
-  Pane,   ///< glass without thickness: it tints, straight
+  Pane,   ///< clear glass without thickness: it tints, straight
+  Frosted,  ///< a rough pane (alpha above 0.001): it tints and scatters; to shadow rays it is a body
   Body,   ///< glass with thickness: it refracts
 };
 
@@ -62,6 +63,7 @@ struct SurfacePoint {
   float thickness = 0;            ///< Body: metres along the normal, the instance's scale included
   float ior = 0;                  ///< Pane, Body: index inside, at least 1; it gives F0 too; 0: of the substance's F0
   glm::vec3 absorption{0};        ///< Body: 1/m
+  bool open = false;              ///< Body: its mesh has edges with one triangle: it stands for a slab that thick, which light leaves as it came
 
   std::uint32_t instance = 0;     ///< index into the scene's table
 };
