@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <new>
@@ -49,6 +50,23 @@ void turnFrames(const scene::Placed& p, Part& part, scene::DeformedFrames frames
   part.normals = std::move(frames.normals);
   part.tangents = std::move(frames.tangents);
   part.flipped = v.flipped;
+}
+
+// Vertices in one place are one: seams of texture coordinates are no edges.
+bool isOpen(const Mesh& mesh) {
+  std::map<std::array<float, 3>, std::uint32_t> places;
+  std::vector<std::uint32_t> weld(mesh.positions.size());
+  for (std::size_t v = 0; v < weld.size(); ++v) {
+    const glm::vec3 p = mesh.positions[v] + 0.0f;
+    weld[v] = places.try_emplace({p.x, p.y, p.z}, std::uint32_t(v)).first->second;
+  }
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
+  for (std::size_t t = 0; t + 2 < mesh.indices.size(); t += 3)
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::uint32_t a = weld[mesh.indices[t + c]], b = weld[mesh.indices[t + (c + 1) % 3]];
+      if (a != b) ++edges[{std::min(a, b), std::max(a, b)}];
+    }
+  return std::any_of(edges.begin(), edges.end(), [](const auto& e) { return e.second < 2; });
 }
 
 class Builder {
@@ -104,6 +122,7 @@ class Builder {
     if (!part.mesh || part.mesh->indices.empty()) return;
     const MaterialInputs& in = inputs_[part.material];
     part.look = lookOf(in);
+    part.open = part.look == kBody && isOpen(*part.mesh);
     turnFrames(p, part, scene::deformedFrames(*part.mesh, p.pose));
     reference::TriangleMesh triangles{scene::deformedPositions(*part.mesh, p.pose), part.mesh->indices, std::uint32_t(part.look), in.twoSided};
     if (p.instance->castsShadow) triangles.mask |= part.look * std::uint32_t(kCasters);

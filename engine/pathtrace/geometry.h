@@ -35,6 +35,7 @@ struct Part {
   std::uint32_t material = 0;              ///< index into Geometry::materials
   Look look = kSolid;
   bool flipped = false;
+  bool open = false;                       ///< a body whose mesh has edges with one triangle
   std::shared_ptr<const Mesh> mesh;        ///< prepared: texture coordinates and colours
   std::vector<std::uint32_t> turned;       ///< indices of a mirrored instance, so that triangles turn as they are seen; empty: the mesh's
   std::vector<glm::vec3> positions;        ///< from Geometry::middle, world axes

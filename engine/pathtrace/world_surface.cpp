@@ -10,6 +10,9 @@ namespace {
 namespace f32 = shading::f32;
 using f32::real;
 
+/// Panes that are rougher turn light by more than a pixel of a picture 1000 pixels high (scene/transparency.cpp).
+constexpr float kClearAlpha = 0.001f;
+
 struct Frame {
   glm::vec3 normal{0};
   glm::vec4 tangent{0};
@@ -71,6 +74,8 @@ void setPassage(const MaterialInputs& m, const Part& part, SurfacePoint& p) {
   p.absorption = m.glass ? f.absorption : glm::vec3(0);
   p.thickness = m.glass && f.thickness > 0 ? f.thickness * meshScale(part.model, p.normal) : 0;
   if (p.thickness > 0) p.passage = Passage::Body;
+  else if (m.glass && p.alpha > kClearAlpha) p.passage = Passage::Frosted;
+  p.open = p.passage == Passage::Body && part.open;
 }
 
 }  // namespace
