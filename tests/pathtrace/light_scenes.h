@@ -32,7 +32,8 @@ inline Mesh ball(const glm::vec3& middle, float radius, int rings) {
   for (int i = 0; i <= rings; ++i)
     for (int j = 0; j <= around; ++j) {
       const float theta = 3.14159265f * float(i) / float(rings), phi = 6.2831853f * float(j % around) / float(around);
-      const glm::vec3 n(std::sin(theta) * std::cos(phi), std::cos(theta), -std::sin(theta) * std::sin(phi));
+      // The poles are one place each, so that the mesh is closed.
+      const glm::vec3 n = i == 0 ? glm::vec3(0, 1, 0) : i == rings ? glm::vec3(0, -1, 0) : glm::vec3(std::sin(theta) * std::cos(phi), std::cos(theta), -std::sin(theta) * std::sin(phi));
       m.positions.push_back(middle + radius * n);
       m.normals.push_back(n);
     }
