@@ -53,6 +53,8 @@ BURNISH_API Result<ReferencePicture> traceReference(const Scene& scene, const Vi
 BURNISH_API Result<void> writeReference(const std::filesystem::path& file, const ReferencePicture& picture);
 /// Reads what writeReference wrote. Errors name the file and what is missing.
 BURNISH_API Result<ReferencePicture> readReference(const std::filesystem::path& file);
+/// A picture in cd/m² (F32, three or four channels) as the renderer develops it for a display: U8 RGB. exposureEv empty: metered as its automatic exposure is; `metered` then says what was found.
+BURNISH_API Image develop(const Image& radiance, ToneMap toneMap, std::optional<float> exposureEv, float* metered = nullptr);
 
 // ---- What accuracy costs (docs/cost.md)
 
