@@ -113,6 +113,7 @@ struct CostReport {
   Image baseDifference, exactDifference;  ///< F32, one channel, against ground truth
   double differenceScale = 0;          ///< white of all difference pictures
   double seconds = 0;                  ///< wall time that it took
+  std::vector<std::pair<std::string, std::string>> idle;  ///< terms and choices that the scene does not exercise, each with the reason
   std::vector<std::string> warnings;
 };
 struct CostOptions {
@@ -138,6 +139,7 @@ struct BudgetOptions {
   std::function<bool(double share, std::string_view what)> progress;
 };
 struct BudgetResult {
+  double ms = 0, targetError = 0;      ///< what was asked for, as in BudgetOptions
   bool met = false;                    ///< false: nothing that was measured fits; `best` is the nearest
   FrontPoint best;                     ///< measured, not added up
   std::optional<FrontPoint> next;      ///< the cheapest that is better: what the next milliseconds would buy
