@@ -51,7 +51,7 @@ BURNISH_API Result<ReferencePicture> readReference(const std::filesystem::path& 
 
 // ---- What accuracy costs (docs/cost.md)
 
-/// A measured figure: the median of several, with quartiles.
+/// A measured figure: the median of several. Repeating the measurement gives a median between low and high 19 times in 20 (docs/cost.md).
 struct Spread {
   double median = 0, low = 0, high = 0;
   int count = 0;
@@ -65,6 +65,7 @@ struct PictureError {
   double p999 = 0;        ///< 99.9th percentile over pixels of |difference| / (other + its mean), luminance
   double energy = 0;      ///< sum over sum of the other, less 1: above 0 it is too bright
   long long skipped = 0;  ///< pixels that are not finite
+  long long uncertain = 0;  ///< pixels where the other's noise is over its value and mean together: left out of rms and energy
 };
 /// One rung, or one setting of a choice.
 struct RungCost {
