@@ -70,7 +70,7 @@ struct PictureError {
   double p999 = 0;        ///< 99.9th percentile over pixels of |difference| / (other + its mean), luminance
   double energy = 0;      ///< sum over sum of the other, less 1: above 0 it is too bright
   long long skipped = 0;  ///< pixels that are not finite
-  long long uncertain = 0;  ///< pixels where the other's noise is over its value and mean together: left out of rms and energy
+  long long uncertain = 0;  ///< pixels where the other's noise is over half of its value and mean together: left out of rms and energy
 };
 /// One rung, or one setting of a choice.
 struct RungCost {
