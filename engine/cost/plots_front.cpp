@@ -82,11 +82,11 @@ void legend(Svg& svg, const std::vector<FrontMark>& marks, bool budgets) {
 void axes(Svg& svg, const Axis& time, const Axis& error, const CostReport& cost) {
   for (const AxisTick& t : time.ticks()) {
     svg.line(t.at, kTop, t.at, kBottom, "grid");
-    svg.text(t.at, kBottom + 18, t.label, "small", "middle");
+    if (!t.label.empty()) svg.text(t.at, kBottom + 18, t.label, "small", "middle");
   }
   for (const AxisTick& t : error.ticks()) {
     svg.line(kLeft, t.at, kRight, t.at, "grid");
-    svg.text(kLeft - 8, t.at + 4, t.label, "small", "end");
+    if (!t.label.empty()) svg.text(kLeft - 8, t.at + 4, t.label, "small", "end");
   }
   svg.line(kLeft, kBottom, kRight, kBottom, "axis");
   svg.line(kLeft, kTop, kLeft, kBottom, "axis");

@@ -57,7 +57,7 @@ void errorMarks(Svg& svg, const Axis& axis, const TermCost& term, const RungCost
       svg.line(axis.at(rung.truth.rms - rung.truth.rmsSpread), y, axis.at(rung.truth.rms + rung.truth.rmsSpread), y, "spread");
     svg.rect(x - 4, y - 4, 8, 8, "dot truth");
   }
-  if (measured(rung.exactRest)) svg.circle(axis.at(rung.exactRest.rms), y, 5, "hollow");
+  if (measured(rung.exactRest) && rung.name != term.exactRung) svg.circle(axis.at(rung.exactRest.rms), y, 5, "hollow");
   if (measured(rung.exact)) {
     if (rung.name == term.exactRung) diamond(svg, axis.at(rung.exact.rms), y, 6.5, "dot best");
     else svg.circle(axis.at(rung.exact.rms), y, 5, "dot error");
@@ -113,7 +113,7 @@ Plot ladderPlot(const CostReport& cost, const TermCost& term, std::string name) 
   for (const Axis* axis : {&time, &error})
     for (const AxisTick& t : axis->ticks()) {
       svg.line(t.at, kFirst - 8, t.at, bottom + 4, "grid");
-      svg.text(t.at, bottom + 18, t.label, "small", "middle");
+      if (!t.label.empty()) svg.text(t.at, bottom + 18, t.label, "small", "middle");
     }
   for (std::size_t i = 0; i < term.rungs.size(); ++i) {
     const RungCost& rung = term.rungs[i];
