@@ -97,8 +97,11 @@ Result<const Image*> Bench::picture(const Quality& quality) {
   return &b.pictures.back()->picture;
 }
 
-void Bench::forget() {
-  if (impl_->pictures.size() > 1) impl_->pictures.resize(1);
+void Bench::forget(std::span<const Quality> but) {
+  Impl& b = *impl_;
+  std::vector<Quality> keys{keyOf(b.base, b.exposureEv)};
+  for (const Quality& q : but) keys.push_back(keyOf(q, b.exposureEv));
+  std::erase_if(b.pictures, [&](const auto& kept) { return std::find(keys.begin(), keys.end(), kept->key) == keys.end(); });
 }
 
 Image Bench::developed(const Image& linear) const {

@@ -47,8 +47,8 @@ class Bench {
   /// F32 RGB, cd/m², rows from top to bottom: linear, without antialiasing, through pixel centres. Rendered once for each quality and kept until forget(); the pointer holds until then.
   /// What only develops a picture (tone map, exposure, bloom, antialiasing) makes no difference.
   Result<const Image*> picture(const Quality& quality);
-  /// Drops all pictures but the base's.
-  void forget();
+  /// Drops all pictures but the base's and those of these qualities.
+  void forget(std::span<const Quality> but = {});
   /// U8 RGB: tone map of the base, exposure of the bench (shaders/shading/tonemap.h).
   [[nodiscard]] Image developed(const Image& linear) const;
 

@@ -20,7 +20,7 @@ struct Bench::Impl {
     Quality key;
     Image picture;
   };
-  std::vector<std::unique_ptr<Kept>> pictures;  ///< the first is the base's
+  std::vector<std::unique_ptr<Kept>> pictures;
 
   std::vector<TargetPlan> targets;     ///< of the frame before
   std::vector<double> baseMedians;     ///< of the calls of time()

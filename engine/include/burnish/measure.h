@@ -39,6 +39,11 @@ struct ReferencePicture {
   Image variance;  ///< of each pixel's mean, (cd/m²)²
   int samples = 0;
   double error = 0;  ///< as ReferenceProgress::error
+  // What was traced, for the file's header:
+  std::uint64_t seed = 1;
+  int bounces = -1;
+  bool pixelArea = true;
+  std::string scene, camera;  ///< names for people; traceReference leaves them empty
 };
 /// Traces paths through the scene with the materials, lights, camera and shading text of the renderer: `quality` says which rungs shade (of specular, diffuse and Fresnel; the preset `exact` is the
 /// one to compare with). Multiple importance sampling of lights, surroundings and emissive surfaces (Veach 1997). Lights are occluded as castsShadow says; stand-ins, probes and baked occlusion have
@@ -75,6 +80,7 @@ struct RungCost {
   Spread exactPassMs;        ///< the rest as in the preset `exact`; count 0 where that was not timed
   PictureError exact;        ///< against the exact rung, the rest as in the base quality
   PictureError exactRest;    ///< against the exact rung, the rest as in the preset `exact`
+  bool exactRestKnown = false;  ///< that one was rendered; the time may have been too short
   PictureError truth;        ///< against ground truth, the rest as in the base quality
   bool dominated = false;    ///< another rung of the term is no slower and no less exact, and better in one by more than the spread
   std::string note;          ///< why a figure is missing, or what else is to be said; may be empty
@@ -85,6 +91,7 @@ struct TermCost {
   std::string name, what;
   std::string calledBy;      ///< what in the scene exercises it
   bool choice = false;       ///< no term of the lighting equation: a size, a format, a layout
+  std::string setting;       ///< what of the rest is changed so that the term counts ("geometry=void"); empty: nothing
   std::string exactRung;     ///< what errors count against
   Image exactPicture;        ///< U8 RGB
   std::vector<RungCost> rungs;
