@@ -1,6 +1,7 @@
 #include "cost/spender.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 
@@ -9,7 +10,7 @@ namespace {
 
 constexpr int kRounds = 3, kVerifyRounds = 11;
 constexpr std::size_t kBatch = 6, kStarts = 4, kVerified = 4, kNeighbours = 24;
-constexpr int kDry = 3;            ///< batches without a better one that end the search
+constexpr std::array kSlack{0.0, 0.02, 0.0, 0.05, 0.0, 0.1};  ///< how much more than the goal is looked at after so many batches without a better one, for models err; after the last the search ends
 constexpr double kClearly = 2e-3;  ///< an error is lower where it is so by this share, and by the noise of ground truth
 constexpr double kWorthTiming = 1.25;  ///< of the best error so far: what misses more is not timed
 constexpr double kFarTimes = 3;    ///< times beyond this many times the largest goal say nothing
@@ -150,8 +151,9 @@ Result<bool> Spender::batch(const Goal& goal, const Goal& wanted) {
 
 Result<void> Spender::search(const Goal& goal, double until) {
   int dry = 0;
-  while (dry < kDry && timeLeft(clock_, until)) {
-    const auto better = batch(goal, goal);
+  while (dry < int(kSlack.size()) && timeLeft(clock_, until)) {
+    const double more = 1 + kSlack[std::size_t(dry)];
+    const auto better = batch(goal, {goal.ratio * more, goal.error * more});
     if (!better) return fail(better.error());
     dry = *better ? 0 : dry + 1;
     const Sample* leader = best(goal);

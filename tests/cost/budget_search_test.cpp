@@ -174,8 +174,11 @@ TEST_CASE("The search finds the best of all choices from a few", "[cost][budget]
   const Factors factors = someFactors();
   std::size_t all = 0;
   each(factors, [&](const Choice&) { ++all; });
-  for (unsigned seed = 1; seed <= 6; ++seed) {
-    const Made made(factors, seed, 0.25);
+  // Settings that meddle with each other up to as much as they do by themselves; a third of that the other way round, where the constraint itself is what the model can be wrong about.
+  for (unsigned run = 0; run < 12; ++run) {
+    const unsigned seed = 1 + run / 2;
+    const bool byError = run % 2 == 1;
+    const Made made(factors, seed, byError ? 0.08 : 0.25);
     const Image exact = made.exact();
     const Against against{&exact, nullptr, {}};
     Clock clock(0, {});
@@ -196,7 +199,7 @@ TEST_CASE("The search finds the best of all choices from a few", "[cost][budget]
       }
       return out;
     };
-    for (const double budget : {0.5, 0.75, 1.0}) {
+    for (const double budget : byError ? std::vector<double>{} : std::vector<double>{0.5, 0.75, 1.0}) {
       Spender spender(instrument, factors, against, clock);
       const std::vector<Goal> goals{{budget, 0}};
       REQUIRE(spender.begin(reportOf(10), goals, 1));
@@ -223,6 +226,7 @@ TEST_CASE("The search finds the best of all choices from a few", "[cost][budget]
         CHECK(next->ratio.median > best->ratio.median);
       }
     }
+    if (!byError) continue;
     // The other way round: the fastest whose error is small enough.
     double largest = 0;
     each(factors, [&](const Choice& c) { largest = std::max(largest, against(made.picture(c), {}).rms); });
