@@ -53,12 +53,10 @@ Result<std::vector<Timing>> Bench::time(std::span<const Quality> qualities, int 
   const auto stopped = [&] { return goOn && !goOn(); };
   double baseLeast = 1e300;
   std::vector<Series> all(qualities.size());
-  // Compiled and warm before anything counts: the first frame compiles, the second is the first that is like the rest.
-  for (int i = 0; i < 2; ++i)
-    if (auto frame = b.draw(b.base); !frame) return fail(frame.error());
+  // Compiled and uploaded before anything counts.
+  if (auto frame = b.draw(b.base); !frame) return fail(frame.error());
   for (const Quality& q : qualities) {
-    for (int i = 0; i < 2; ++i)
-      if (auto frame = b.draw(q); !frame) return fail(frame.error());
+    if (auto frame = b.draw(q); !frame) return fail(frame.error());
     if (stopped()) return fail("times", "stopped before there were any", "give it more time");
   }
   std::vector<double> baseFrames;

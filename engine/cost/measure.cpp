@@ -109,7 +109,7 @@ Result<void> Run::presets() {
   const auto goOn = [this] { return !clock_.stopped(); };
   double before = clock_.seconds();
   if (auto warm = bench_.time({&qualities[0], 1}, kLeastRounds, {}, goOn); !warm) return fail(warm.error());
-  frameSeconds_ = (clock_.seconds() - before) / (4 + 2 * kLeastRounds + 1);
+  frameSeconds_ = (clock_.seconds() - before) / (2 + 2 * kLeastRounds + 1);  // two to warm up, each round's pair, the last of the base's
   const auto timings = bench_.time(qualities, kLeastRounds, {}, goOn);
   if (!timings) return fail(timings.error());
   for (std::size_t i = 0; i < qualities.size(); ++i)
@@ -164,7 +164,7 @@ Result<void> Run::end() {
   const Spread base = bench_.baseFrame();
   const double exactSeconds = frameSeconds_ * points_[1].second.median;
   for (Ladder& ladder : ladders_) {
-    // Two to warm up, three that count, of each rung.
+    // One to warm up, three that count, of each rung.
     if (clock_.left() > 5 * exactSeconds * double(ladder.qualities.size()))
       if (auto timed = timeBesideExact(bench_, ladder, clock_); !timed) return timed;
     finish(ladder, base);

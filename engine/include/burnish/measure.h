@@ -40,6 +40,11 @@ struct ReferencePicture {
   Image variance;  ///< of each pixel's mean, (cd/m²)²
   int samples = 0;
   double error = 0;  ///< as ReferenceProgress::error
+  // What was traced, for the file's header:
+  std::uint64_t seed = 1;
+  int bounces = -1;
+  bool pixelArea = true;
+  std::string scene, camera;  ///< names for people; traceReference leaves them empty
 };
 /// Traces paths through the scene with the materials, lights, camera and shading text of the renderer: `quality` says which rungs shade (of specular, diffuse and Fresnel; the preset `exact` is the
 /// one to compare with). Multiple importance sampling of lights, surroundings and emissive surfaces (Veach 1997). Lights are occluded as castsShadow says; stand-ins, probes and baked occlusion have
