@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -155,8 +156,11 @@ struct BudgetResult {
   std::optional<FrontPoint> next;      ///< the cheapest that is better: what the next milliseconds would buy
   int measured = 0;                    ///< combinations that were rendered
 };
-/// The set of rungs with the least error whose measured frame time fits (or the least time whose error fits). Starts from `cost`, whose front it extends by what it measures.
-BURNISH_API Result<BudgetResult> spendBudget(const ProcAddress& getProcAddress, const Scene& scene, const View& view, const CostOptions& options, const BudgetOptions& budget, CostReport& cost, Report& report);
+/// For each budget the set of rungs with the least error whose measured frame time fits, its spread included (or the least time whose error fits). One search: what is rendered for one budget serves
+/// the others. Starts from `cost`, whose front it extends by what it measures. `options` as measureCost had them. Only terms that the scene exercises are touched, and no antialiasing or bloom.
+/// Errors: budgets that ask for nothing, a report of another size, stopped by `progress` (of the first budget), OpenGL's. When the time is up (the sum of all minutes) it returns what it has.
+BURNISH_API Result<std::vector<BudgetResult>> spendBudget(const ProcAddress& getProcAddress, const Scene& scene, const View& view, const CostOptions& options, std::span<const BudgetOptions> budgets, CostReport& cost,
+                                                          Report& report);
 
 /// Into the folder: index.html (self-contained), cost.json, cost.csv, and plots as SVG and PNG. Each file complete or absent.
 BURNISH_API Result<void> writeCostReport(const std::filesystem::path& folder, const CostReport& cost, const std::vector<BudgetResult>& budgets, Report& report);
