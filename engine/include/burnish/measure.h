@@ -191,10 +191,19 @@ struct GuardRow {
 /// Called before each case with how many are done, of how many.
 using MeasureProgress = std::function<void(int done, int total, std::string_view what)>;
 
-/// The hard cases of the shading text as C++, in double and in float. No OpenGL. Some seconds.
-BURNISH_API std::vector<StabilityCase> stabilityOnCpu(const MeasureProgress& progress = {});
+struct StabilityOptions {
+  std::vector<std::string> cases;        ///< ids, "H12": these alone; empty: all
+  bool quick = false;                    ///< without the cases that take more than a second or so on a software renderer
+  std::filesystem::path shaderOverride;  ///< RendererOptions::shaderOverride of the pictures, and of the shading text as GLSL
+  MeasureProgress progress;
+};
+/// Every id that has a case, in order: "H1" to "H29".
+BURNISH_API std::vector<std::string> stabilityIds();
+/// The hard cases of the shading text as C++, in double and in float, and of what is computed on the CPU. No OpenGL. Some seconds.
+BURNISH_API std::vector<StabilityCase> stabilityOnCpu(const StabilityOptions& options = {});
 /// The hard cases on the current context: the shading text as GLSL, and pictures through the renderer. `backend`: the name for the rows. Errors of OpenGL itself are rows that fail.
-BURNISH_API std::vector<StabilityCase> stabilityOnGpu(const ProcAddress& getProcAddress, std::string_view backend, const MeasureProgress& progress = {});
+/// A minute or so on a software renderer.
+BURNISH_API std::vector<StabilityCase> stabilityOnGpu(const ProcAddress& getProcAddress, std::string_view backend, const StabilityOptions& options = {});
 /// The guard ledger: each guard taken out by itself, in double. No OpenGL. Some seconds.
 BURNISH_API std::vector<GuardRow> guardLedger(const MeasureProgress& progress = {});
 
