@@ -9,6 +9,11 @@ find_package(glfw3 REQUIRED)
 find_package(Threads REQUIRED)
 find_package(HWY REQUIRED CONFIG)
 find_package(embree 3.13 REQUIRED)
+if(BURNISH_BUILD_TOOLS)
+  find_path(IMGUI_INCLUDE_DIR imgui.h PATH_SUFFIXES imgui REQUIRED)  # with its GLFW and OpenGL backends
+  find_library(IMGUI_LIBRARY imgui REQUIRED)
+  find_library(STB_LIBRARY NAMES libstb.a REQUIRED)  # the font rasterizer that the distribution takes out of ImGui
+endif()
 find_path(KISSFFT_INCLUDE_DIR kissfft/kissfft.hh REQUIRED)  # header only
 
 # What the public headers include.
