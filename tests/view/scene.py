@@ -15,7 +15,7 @@ def ball(radius=1.0, rows=24, columns=48):
             points.append(tuple(radius * x for x in n))
             if r < rows and c < columns:
                 a, b = r * (columns + 1) + c, (r + 1) * (columns + 1) + c
-                indices += [a, a + 1, b, b, a + 1, b + 1]
+                indices += ([a, a + 1, b] if r > 0 else []) + ([b, a + 1, b + 1] if r + 1 < rows else [])
     return points, normals, indices
 
 

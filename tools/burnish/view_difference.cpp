@@ -49,8 +49,8 @@ double scaleFor(std::vector<float> values) {
 glm::dvec3 heatColor(double t) {
   t = std::clamp(t, 0.0, 1.0);
   const double lightness = 0.97 * t, hue = (-75 + 180 * t) * M_PI / 180;
-  // As colourful as the display can show at this lightness, up to a limit.
-  double chroma = 0.19 * std::sin(M_PI * std::pow(t, 0.75));
+  // As colourful as the display can show at this lightness, up to a limit; the ends are grey.
+  double chroma = 0.2 * std::min({1.0, 4 * t, 5 * (1 - t)});
   while (chroma > 1e-3 && !inGamut(linearOfOklab(lightness, chroma, hue))) chroma *= 0.97;
   const glm::dvec3 color = glm::clamp(linearOfOklab(lightness, chroma, hue), glm::dvec3(0), glm::dvec3(1));
   return {encoded(color.x), encoded(color.y), encoded(color.z)};

@@ -63,6 +63,9 @@ State::State(LoadedScene& scene, const Arguments& arguments)
   if (arguments.heat) layout = Layout::Heat;
   for (const auto id : burnish::playedTogether(loaded.scene)) length = std::max(length, loaded.scene.animations.get(id)->length());
   time = arguments.scene.time.value_or(0);
+  if (!arguments.scene.eye && !arguments.scene.fovDegrees)
+    for (const auto& [id, name] : camerasOf(loaded.scene))
+      if (!follows && sameView(burnish::viewOf(loaded.scene, *loaded.scene.cameras.get(id)), loaded.view)) follows = id;
   openPanels(*this, arguments);
 }
 

@@ -19,7 +19,8 @@ class Ui {
   ~Ui();
   Ui(const Ui&) = delete;
   Ui& operator=(const Ui&) = delete;
-  void begin();  ///< a frame's events are known from here on
+  /// A frame's events are known from here on. `blind`: the mouse is nowhere.
+  void begin(bool blind);
   void end();    ///< draws onto framebuffer 0
   [[nodiscard]] float scale() const { return scale_; }  ///< 1: a character is 15 pixels high
 

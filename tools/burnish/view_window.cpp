@@ -158,7 +158,7 @@ Result<void> Window::run() {
       continue;
     }
     if (awake_ > 0) --awake_;
-    ui_->begin();
+    ui_->begin(scripted());  // what a script draws does not depend on where the pointer is
     takeInput();
     glm::ivec2 size(0);
     glfwGetFramebufferSize(static_cast<GLFWwindow*>(context_->window()), &size.x, &size.y);
