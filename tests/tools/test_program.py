@@ -19,7 +19,7 @@ import unittest
 import unittest.mock
 
 BURNISH = ""
-SUBCOMMANDS = ["render", "plan", "bake", "prefilter", "inspect", "doctor", "stability", "cost"]
+SUBCOMMANDS = ["render", "view", "plan", "bake", "prefilter", "reference", "cost", "inspect", "doctor", "stability"]
 SANITIZED = os.environ.get("BURNISH_SANITIZED") == "1"
 RENDER_KEYS = ["schema_version", "backend", "renderer", "size", "frames", "timing_mode", "frame_ms", "frame_cpu_ms", "passes", "effects", "programs",
                "plan", "gbuffer_bytes_per_pixel", "texture_bytes", "nonfinite_pixels", "gl_errors", "warnings", "rungs"]

@@ -19,5 +19,6 @@ Command addDoctor(CLI::App& program);
 Command addReference(CLI::App& program);
 Command addStability(CLI::App& program);
 Command addCost(CLI::App& program);
+Command addView(CLI::App& program);
 
 }  // namespace cli
