@@ -17,5 +17,6 @@ Command addPrefilter(CLI::App& program);
 Command addInspect(CLI::App& program);
 Command addDoctor(CLI::App& program);
 Command addStability(CLI::App& program);
+Command addCost(CLI::App& program);
 
 }  // namespace cli

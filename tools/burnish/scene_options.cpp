@@ -205,7 +205,7 @@ void SceneOptions::addViewTo(CLI::App& app) {
         return value && *value > 0 && *value < 180 ? value : std::nullopt;
       },
       "an angle above 0 and below 180 degrees");
-  addParsed(app, "--size", "WxH", "pixels (1280x720)", size, parseSize, "a size: give WxH, each 1 to 16384, for example 1280x720");
+  addParsed(app, "--size", "WxH", fmt::format("pixels ({}x{})", size.x, size.y), size, parseSize, "a size: give WxH, each 1 to 16384, for example 1280x720");
   app.add_option("--probes", probes, "a folder of probes that burnish bake wrote: they light the scene")->type_name("DIR");
   app.add_option_function<std::string>(
          "--exposure",
