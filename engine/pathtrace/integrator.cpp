@@ -17,6 +17,11 @@ namespace {
 constexpr int kSure = 4;
 constexpr float kMostSurvival = 0.95f;
 
+/// After a bounce that was less dense than this (per sr: the peak of a lobe of alpha 0.1), lobes are held at kHeldAlpha. What a narrow lobe throws on something wide (caustics) comes from lights
+/// that no path meets by chance: without this a few samples in a million would bring all of it. It is blurred, and its energy kept (Kaplanyan and Dachsbacher 2013, "Path Space Regularization
+/// for Holistic and Robust Light Transport", section 4). The surface that is seen, what is seen in mirrors and what glass refracts stay as they are.
+constexpr float kWide = 8, kHeldAlpha = 0.25f;
+
 bool finite(const vec3& c) { return std::isfinite(c.x + c.y + c.z); }
 
 }  // namespace
@@ -32,6 +37,7 @@ struct Integrator::Path {
   int bounces = 0, surfaces = 0;
   float density = 0;           ///< with which a surface sent the ray; 0: what it meets counts in full
   dvec3 from{0};               ///< where that surface is
+  bool wide = false;           ///< something wide sent it, or a surface before
   bool inside = false;         ///< in a body of glass
   vec3 absorption{0};          ///< of it, 1/m
   float index = 1;             ///< of it
@@ -72,7 +78,7 @@ bool Integrator::meet(Path& path) const {
     if (path.ray.camera) path.features.albedo += path.throughput * glm::min(point.emission, 1.0f), path.features.normal += point.normal * luminance(path.throughput);
     return point.coverage < 1 || point.passage == Passage::Blend ? goStraight(path, point, toRay, 0) && survives(path) : false;
   }
-  const Bsdf bsdf(point, toRay, world_->rungs(), table_);
+  const Bsdf bsdf(point, toRay, world_->rungs(), table_, path.wide ? kHeldAlpha : 0);
   const bool within = point.passage == Passage::Body && !point.open && point.back;
   if (path.ray.camera) {
     const vec3 kept = path.throughput * (1.0f - (point.passage == Passage::Opaque ? vec3(0) : world_->crossing(point, toRay)));
@@ -188,6 +194,7 @@ bool Integrator::bounce(Path& path, const SurfacePoint& point, const Bsdf& bsdf)
   path.throughput *= r.value / r.density;
   path.ray = world_->leave(point, toLight);
   path.density = r.density;
+  path.wide = path.wide || r.density < kWide;
   path.from = point.position;
   ++path.bounces;
   return true;
