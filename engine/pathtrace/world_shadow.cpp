@@ -39,7 +39,10 @@ glm::vec3 World::Parts::through(std::vector<reference::Hit>& hits, const PathRay
   SurfacePoint p;
   double entered = 0;                  // metres along the ray
   std::uint32_t inside = ~0u;          // the instance whose body the ray is in
-  for (const reference::Hit& hit : hits) {
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    const reference::Hit& hit = hits[i];
+    // Both triangles of an edge that the ray meets are one surface.
+    if (i > 0 && hit.mesh == hits[i - 1].mesh && hit.back == hits[i - 1].back && hit.distance - hits[i - 1].distance <= gap) continue;
     if (!surface(ray, hit, p)) continue;
     if (p.passage == Passage::Opaque || (turns(p.passage) && !straight)) return glm::vec3(0);
     left *= crossing(p, glm::vec3(-ray.direction));

@@ -18,5 +18,7 @@ Command addInspect(CLI::App& program);
 Command addDoctor(CLI::App& program);
 Command addReference(CLI::App& program);
 Command addStability(CLI::App& program);
+Command addCost(CLI::App& program);
+Command addView(CLI::App& program);
 
 }  // namespace cli
