@@ -22,6 +22,12 @@ constexpr float kMostSurvival = 0.95f;
 /// for Holistic and Robust Light Transport", section 4). The surface that is seen, what is seen in mirrors and what glass refracts stay as they are.
 constexpr float kWide = 8, kHeldAlpha = 0.25f;
 
+/// Lobes without a normalization never reflect more than F0 toward a light: narrow ones need no holding, and would not keep their energy.
+float heldAlpha(const shading::Rungs& k) {
+  const bool bare = k.specular == SPECULAR_MICROFACET && k.distribution == DISTRIBUTION_BLINN_PHONG && k.geometry == GEOMETRY_VOID && k.normalization == NORMALIZATION_NONE;
+  return bare || k.specular == SPECULAR_PHONG || k.specular == SPECULAR_BLINN_PHONG ? 0 : kHeldAlpha;
+}
+
 bool finite(const vec3& c) { return std::isfinite(c.x + c.y + c.z); }
 
 }  // namespace
@@ -51,7 +57,7 @@ struct Integrator::Path {
 };
 
 Integrator::Integrator(const World& world, int bounces, Technique technique)
-    : world_(&world), table_(world.rungs()), lights_(world.lights()), bounces_(bounces), technique_(technique) {}
+    : world_(&world), table_(world.rungs()), lights_(world.lights()), bounces_(bounces), technique_(technique), held_(heldAlpha(world.rungs())) {}
 
 dvec3 Integrator::radiance(const PathRay& ray, Sampler& sampler, dvec3& direct, Features& features) const {
   direct = dvec3(0);
@@ -78,7 +84,7 @@ bool Integrator::meet(Path& path) const {
     if (path.ray.camera) path.features.albedo += path.throughput * glm::min(point.emission, 1.0f), path.features.normal += point.normal * luminance(path.throughput);
     return point.coverage < 1 || point.passage == Passage::Blend ? goStraight(path, point, toRay, 0) && survives(path) : false;
   }
-  const Bsdf bsdf(point, toRay, world_->rungs(), table_, path.wide ? kHeldAlpha : 0);
+  const Bsdf bsdf(point, toRay, world_->rungs(), table_, path.wide ? held_ : 0);
   const bool within = point.passage == Passage::Body && !point.open && point.back;
   if (path.ray.camera) {
     const vec3 kept = path.throughput * (1.0f - (point.passage == Passage::Opaque ? vec3(0) : world_->crossing(point, toRay)));

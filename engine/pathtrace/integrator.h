@@ -44,6 +44,7 @@ class Integrator {
   LightPicker lights_;
   int bounces_;
   Technique technique_;
+  float held_;  ///< alpha of lobes after a wide bounce, at least
 };
 
 }  // namespace burnish::pathtrace
