@@ -56,6 +56,8 @@ class Bsdf {
   [[nodiscard]] float guess(const glm::vec3& toLight) const;
   /// A guess at the directional albedo, luminance.
   [[nodiscard]] float albedoGuess() const { return lobeAlbedo_ + diffuseAlbedo_; }
+  /// Share of the light that goes everywhere rather than into a narrow lobe (alpha below 0.2), by the same guess.
+  [[nodiscard]] float spread() const { return m_.alpha >= 0.2f ? 1 : 1 - lobeShare_; }
   /// Diffuse albedo + F0: what the picture's albedo layer shows.
   [[nodiscard]] glm::vec3 layerAlbedo() const { return glm::clamp(m_.diffuse + m_.f0, 0.0f, 1.0f); }
   /// A facet's normal as the eye sees it, world space: the lobe's own distribution, by rejection (tails past 3 alpha of what is seen count a little less). For what crosses rough glass.

@@ -57,7 +57,7 @@ struct Integrator::Path {
 };
 
 Integrator::Integrator(const World& world, int bounces, Technique technique)
-    : world_(&world), table_(world.rungs()), lights_(world.lights()), bounces_(bounces), technique_(technique), held_(heldAlpha(world.rungs())) {}
+    : world_(&world), table_(world.rungs()), lights_(world.lights()), glows_(world), bounces_(bounces), technique_(technique), held_(heldAlpha(world.rungs())) {}
 
 dvec3 Integrator::radiance(const PathRay& ray, Sampler& sampler, dvec3& direct, Features& features) const {
   direct = dvec3(0);
@@ -191,15 +191,30 @@ bool Integrator::cross(Path& path, const SurfacePoint& point, const Bsdf& bsdf) 
   return true;
 }
 
+// Wide lobes, on the first bounces: later ones carry little, and narrow ones find what they mirror.
+bool Integrator::looksForGlows(const Path& path, const Bsdf& bsdf) const {
+  return !glows_.empty() && technique_ == Technique::Both && path.bounces < 2 && !path.inside && bsdf.spread() > 0.2f;
+}
+
 bool Integrator::bounce(Path& path, const SurfacePoint& point, const Bsdf& bsdf) const {
   vec3 toLight;
-  const float pick = path.sampler.next();
-  if (!bsdf.sample(pick, path.sampler.next2(), toLight)) return false;
+  float pick = path.sampler.next();
+  const glm::vec2 place = path.sampler.next2();
+  Glows::Cones cones;
+  if (looksForGlows(path, bsdf)) cones = glows_.from(point.position, point.geometric);
+  const float share = cones.count > 0 ? Glows::kShare : 0;
+  if (pick < share) {
+    toLight = Glows::sample(cones, pick / share, place);
+  } else {
+    pick = std::min((pick - share) / (1 - share), 0.99999994f);
+    if (!bsdf.sample(pick, place, toLight)) return false;
+  }
   const Reflected r = bsdf.reflected(toLight);
+  const float density = (1 - share) * r.density + (share > 0 ? share * Glows::density(cones, toLight) : 0);
   if (!(r.density > 0) || r.value == vec3(0)) return false;
-  path.throughput *= r.value / r.density;
+  path.throughput *= r.value / density;
   path.ray = world_->leave(point, toLight);
-  path.density = r.density;
+  path.density = r.density;  // as lit() weighs it
   path.wide = path.wide || r.density < kWide;
   path.from = point.position;
   ++path.bounces;
