@@ -23,17 +23,18 @@ bool drawnVisible(const shading::Rungs& k) {
 
 }  // namespace
 
-Bsdf::Bsdf(const SurfacePoint& point, const vec3& toEye, const shading::Rungs& rungs, const LobeTable& table)
-    : m_(f32::makeSurface(point.normal, toEye, point.albedo, point.substance, point.alpha)), rungs_(rungs), table_(&table), frame_(vec3(0), vec3(0), m_.n), geometric_(point.geometric) {
+Bsdf::Bsdf(const SurfacePoint& point, const vec3& toEye, const shading::Rungs& rungs, const LobeTable& table, float leastAlpha)
+    : m_(f32::makeSurface(point.normal, toEye, point.albedo, point.substance, std::max(point.alpha, leastAlpha))), rungs_(rungs), table_(&table), frame_(vec3(0), vec3(0), m_.n), geometric_(point.geometric), facets_(point.alpha) {
   rungs_.lobe = LOBE_STABLE;
   rungs_.anisotropic = rungs.anisotropic == 1 && point.brushed && hasTwoWidths(rungs) ? 1 : 0;
   rungs_.roughDiffuse = rungs.roughDiffuse == 1 && point.sigma > 0 ? 1 : 0;
   m_.eta = point.eta;
   m_.k = point.k;
   m_.sigma = point.sigma;
-  if (rungs_.anisotropic == 1) f32::setWidth(m_, point.tangent, point.alphaX);
+  if (rungs_.anisotropic == 1) f32::setWidth(m_, point.tangent, std::max(point.alphaX, leastAlpha));
   twoWidths_ = m_.alphaX != m_.alphaY;
-  if (!twoWidths_) rungs_.anisotropic = 0;
+  if (twoWidths_) facets_.x = std::max(point.alphaX, point.alpha);
+  else rungs_.anisotropic = 0;
   if (point.passage == Passage::Blend) m_.diffuse *= point.pigment;
   if (isGlass(point.passage)) makeGlass(point);
   family_ = lobeFamily(rungs_);
@@ -122,18 +123,16 @@ Reflected Bsdf::reflected(const vec3& toLight) const {
   return sum;
 }
 
-vec3 Bsdf::halfVector(const vec2& place) const {
-  const vec3 h = visible_     ? visibleGgx(frame_.toLocal(m_.v), twoWidths_ ? m_.alphaX : m_.alpha, twoWidths_ ? m_.alphaY : m_.alpha, place)
-                 : twoWidths_ ? f32::sampleTwoWidths(place.x, place.y, m_.alphaX, m_.alphaY, family_)
-                              : f32::sampleLobe(place.x, place.y, m_.alpha, family_);
-  return frame_.toWorld(h);
+vec3 Bsdf::halfVector(const vec2& place, const vec2& widths, int family) const {
+  if (visible_) return frame_.toWorld(visibleGgx(frame_.toLocal(m_.v), widths.x, widths.y, place));
+  return frame_.toWorld(twoWidths_ ? f32::sampleTwoWidths(place.x, place.y, widths.x, widths.y, family) : f32::sampleLobe(place.x, place.y, widths.x, family));
 }
 
 bool Bsdf::sample(float pick, const vec2& place, vec3& toLight) const {
   if (pick >= lobeShare_) {
     toLight = Frame(m_.n).toWorld(f32::sampleCosine(place.x, place.y));
   } else {
-    const vec3 h = halfVector(place);
+    const vec3 h = halfVector(place, twoWidths_ ? vec2(m_.alphaX, m_.alphaY) : vec2(m_.alpha), family_);
     toLight = h;
     if (family_ != LOBE_FAMILY_PHONG) {
       const float voh = glm::dot(m_.v, h);
@@ -158,13 +157,13 @@ float Bsdf::guess(const vec3& toLight) const {
 }
 
 vec3 Bsdf::facet(Sampler& sampler) const {
-  if (visible_) return halfVector(sampler.next2());
-  const int family = family_ == LOBE_FAMILY_PHONG ? LOBE_FAMILY_BLINN_PHONG : family_;
-  const Frame frame = twoWidths_ ? frame_ : Frame(m_.n);
-  const float sine = std::sqrt(std::max(1 - m_.nov * m_.nov, 0.0f)), most = m_.nov + 3 * sine * std::max(m_.alphaX, m_.alphaY);
+  if (visible_) return halfVector(sampler.next2(), facets_, family_);
+  const bool phong = family_ == LOBE_FAMILY_PHONG;
+  const Frame frame = phong ? Frame(m_.n) : frame_;
+  const float sine = std::sqrt(std::max(1 - m_.nov * m_.nov, 0.0f)), most = m_.nov + 3 * sine * std::max(facets_.x, facets_.y);
   for (int i = 0; i < 16; ++i) {
     const vec2 u = sampler.next2();
-    const vec3 h = frame.toWorld(twoWidths_ ? f32::sampleTwoWidths(u.x, u.y, m_.alphaX, m_.alphaY, family) : f32::sampleLobe(u.x, u.y, m_.alpha, family));
+    const vec3 h = phong ? frame.toWorld(f32::sampleLobe(u.x, u.y, facets_.x, LOBE_FAMILY_BLINN_PHONG)) : halfVector(u, facets_, family_);
     // What is seen of a facet goes as v·h/n·h.
     const float noh = glm::dot(m_.n, h);
     if (noh > 0 && sampler.next() * most * noh < glm::dot(m_.v, h)) return h;

@@ -40,8 +40,9 @@ struct Reflected {
 /// differ by float's rounding alone.
 class Bsdf {
  public:
-  /// toEye: unit. Of glass this is the outer face alone, with the exact Fresnel equation (glass.h has the rest); of blended surfaces the pigment's share of diffuse light.
-  Bsdf(const SurfacePoint& point, const glm::vec3& toEye, const shading::Rungs& rungs, const LobeTable& table);
+  /// toEye: unit. Of glass this is the outer face alone, with the exact Fresnel equation (glass.h has the rest); of blended surfaces the pigment's share of diffuse light. leastAlpha: narrower
+  /// lobes are reflected as if they were that wide (facet() is not).
+  Bsdf(const SurfacePoint& point, const glm::vec3& toEye, const shading::Rungs& rungs, const LobeTable& table, float leastAlpha = 0);
 
   /// toLight: unit. Zero from below the triangle.
   [[nodiscard]] Reflected reflected(const glm::vec3& toLight) const;
@@ -55,6 +56,8 @@ class Bsdf {
   [[nodiscard]] float guess(const glm::vec3& toLight) const;
   /// A guess at the directional albedo, luminance.
   [[nodiscard]] float albedoGuess() const { return lobeAlbedo_ + diffuseAlbedo_; }
+  /// Share of the light that goes everywhere rather than into a narrow lobe (alpha below 0.2), by the same guess.
+  [[nodiscard]] float spread() const { return m_.alpha >= 0.2f ? 1 : 1 - lobeShare_; }
   /// Diffuse albedo + F0: what the picture's albedo layer shows.
   [[nodiscard]] glm::vec3 layerAlbedo() const { return glm::clamp(m_.diffuse + m_.f0, 0.0f, 1.0f); }
   /// A facet's normal as the eye sees it, world space: the lobe's own distribution, by rejection (tails past 3 alpha of what is seen count a little less). For what crosses rough glass.
@@ -68,7 +71,7 @@ class Bsdf {
   void weigh();
   [[nodiscard]] glm::vec3 value(const glm::vec3& l, const shading::f32::Angles& a) const;
   [[nodiscard]] float densityAt(const shading::f32::Angles& a) const;
-  [[nodiscard]] glm::vec3 halfVector(const glm::vec2& place) const;
+  [[nodiscard]] glm::vec3 halfVector(const glm::vec2& place, const glm::vec2& widths, int family) const;
 
   shading::f32::Surface m_;
   shading::Rungs rungs_;
@@ -76,6 +79,7 @@ class Bsdf {
   LobeTable::Row row_;
   Frame frame_;           ///< of the lobe: n, or for Phong's the mirrored direction
   glm::vec3 geometric_, through_{0}, back_{0};
+  glm::vec2 facets_;      ///< the surface's own widths
   int family_;
   bool tilted_, twoWidths_, visible_, coupled_, pane_ = false;
   float lobeShare_ = 0, lobeAlbedo_ = 0, diffuseAlbedo_ = 0, alphaEye_ = 1;

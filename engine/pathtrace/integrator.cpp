@@ -17,6 +17,17 @@ namespace {
 constexpr int kSure = 4;
 constexpr float kMostSurvival = 0.95f;
 
+/// After a bounce that was less dense than this (per sr: the peak of a lobe of alpha 0.1), lobes are held at kHeldAlpha. What a narrow lobe throws on something wide (caustics) comes from lights
+/// that no path meets by chance: without this a few samples in a million would bring all of it. It is blurred, and its energy kept (Kaplanyan and Dachsbacher 2013, "Path Space Regularization
+/// for Holistic and Robust Light Transport", section 4). The surface that is seen, what is seen in mirrors and what glass refracts stay as they are.
+constexpr float kWide = 8, kHeldAlpha = 0.25f;
+
+/// Lobes without a normalization never reflect more than F0 toward a light: narrow ones need no holding, and would not keep their energy.
+float heldAlpha(const shading::Rungs& k) {
+  const bool bare = k.specular == SPECULAR_MICROFACET && k.distribution == DISTRIBUTION_BLINN_PHONG && k.geometry == GEOMETRY_VOID && k.normalization == NORMALIZATION_NONE;
+  return bare || k.specular == SPECULAR_PHONG || k.specular == SPECULAR_BLINN_PHONG ? 0 : kHeldAlpha;
+}
+
 bool finite(const vec3& c) { return std::isfinite(c.x + c.y + c.z); }
 
 }  // namespace
@@ -32,6 +43,7 @@ struct Integrator::Path {
   int bounces = 0, surfaces = 0;
   float density = 0;           ///< with which a surface sent the ray; 0: what it meets counts in full
   dvec3 from{0};               ///< where that surface is
+  bool wide = false;           ///< something wide sent it, or a surface before
   bool inside = false;         ///< in a body of glass
   vec3 absorption{0};          ///< of it, 1/m
   float index = 1;             ///< of it
@@ -45,7 +57,7 @@ struct Integrator::Path {
 };
 
 Integrator::Integrator(const World& world, int bounces, Technique technique)
-    : world_(&world), table_(world.rungs()), lights_(world.lights()), bounces_(bounces), technique_(technique) {}
+    : world_(&world), table_(world.rungs()), lights_(world.lights()), glows_(world), bounces_(bounces), technique_(technique), held_(heldAlpha(world.rungs())) {}
 
 dvec3 Integrator::radiance(const PathRay& ray, Sampler& sampler, dvec3& direct, Features& features) const {
   direct = dvec3(0);
@@ -72,7 +84,7 @@ bool Integrator::meet(Path& path) const {
     if (path.ray.camera) path.features.albedo += path.throughput * glm::min(point.emission, 1.0f), path.features.normal += point.normal * luminance(path.throughput);
     return point.coverage < 1 || point.passage == Passage::Blend ? goStraight(path, point, toRay, 0) && survives(path) : false;
   }
-  const Bsdf bsdf(point, toRay, world_->rungs(), table_);
+  const Bsdf bsdf(point, toRay, world_->rungs(), table_, path.wide ? held_ : 0);
   const bool within = point.passage == Passage::Body && !point.open && point.back;
   if (path.ray.camera) {
     const vec3 kept = path.throughput * (1.0f - (point.passage == Passage::Opaque ? vec3(0) : world_->crossing(point, toRay)));
@@ -179,15 +191,31 @@ bool Integrator::cross(Path& path, const SurfacePoint& point, const Bsdf& bsdf) 
   return true;
 }
 
+// Wide lobes, on the first bounces: later ones carry little, and narrow ones find what they mirror.
+bool Integrator::looksForGlows(const Path& path, const Bsdf& bsdf) const {
+  return !glows_.empty() && technique_ == Technique::Both && path.bounces < 2 && !path.inside && bsdf.spread() > 0.2f;
+}
+
 bool Integrator::bounce(Path& path, const SurfacePoint& point, const Bsdf& bsdf) const {
   vec3 toLight;
-  const float pick = path.sampler.next();
-  if (!bsdf.sample(pick, path.sampler.next2(), toLight)) return false;
+  float pick = path.sampler.next();
+  const glm::vec2 place = path.sampler.next2();
+  Glows::Cones cones;
+  if (looksForGlows(path, bsdf)) cones = glows_.from(point.position, point.geometric);
+  const float share = cones.count > 0 ? Glows::kShare : 0;
+  if (pick < share) {
+    toLight = Glows::sample(cones, pick / share, place);
+  } else {
+    pick = std::min((pick - share) / (1 - share), 0.99999994f);
+    if (!bsdf.sample(pick, place, toLight)) return false;
+  }
   const Reflected r = bsdf.reflected(toLight);
+  const float density = (1 - share) * r.density + (share > 0 ? share * Glows::density(cones, toLight) : 0);
   if (!(r.density > 0) || r.value == vec3(0)) return false;
-  path.throughput *= r.value / r.density;
+  path.throughput *= r.value / density;
   path.ray = world_->leave(point, toLight);
-  path.density = r.density;
+  path.density = r.density;  // as lit() weighs it
+  path.wide = path.wide || r.density < kWide;
   path.from = point.position;
   ++path.bounces;
   return true;

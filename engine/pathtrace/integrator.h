@@ -6,6 +6,7 @@
 
 #include "pathtrace/bsdf.h"
 #include "pathtrace/lights.h"
+#include "pathtrace/lights_glow.h"
 #include "pathtrace/world.h"
 
 namespace burnish::pathtrace {
@@ -31,6 +32,7 @@ class Integrator {
   [[nodiscard]] bool goStraight(Path& path, const SurfacePoint& point, const glm::vec3& toRay, float reflects) const;
   [[nodiscard]] bool cross(Path& path, const SurfacePoint& point, const Bsdf& bsdf) const;
   [[nodiscard]] bool bounce(Path& path, const SurfacePoint& point, const Bsdf& bsdf) const;
+  [[nodiscard]] bool looksForGlows(const Path& path, const Bsdf& bsdf) const;
   [[nodiscard]] bool survives(Path& path) const;
 
   [[nodiscard]] glm::vec3 lit(const SurfacePoint& point, const Bsdf& bsdf, Sampler& sampler) const;
@@ -42,8 +44,10 @@ class Integrator {
   const World* world_;
   LobeTable table_;
   LightPicker lights_;
+  Glows glows_;
   int bounces_;
   Technique technique_;
+  float held_;  ///< alpha of lobes after a wide bounce, at least
 };
 
 }  // namespace burnish::pathtrace

@@ -28,7 +28,9 @@ float held(float uv, Wrap wrap) {
 
 }  // namespace
 
-MapSampler::MapSampler(std::vector<Image> levels, const Sampler& sampler, bool srgb) : levels_(std::move(levels)), sampler_(sampler), srgb_(srgb) {}
+MapSampler::MapSampler(std::vector<Image> levels, const Sampler& sampler, bool srgb) : levels_(std::move(levels)), sampler_(sampler), srgb_(srgb), single_(size() == glm::ivec2(1)) {
+  if (single_) only_ = texel(levels_[0], 0, 0);
+}
 
 glm::vec4 MapSampler::texel(const Image& level, int x, int y) const {
   const std::size_t n = std::size_t(level.channels);
@@ -54,6 +56,7 @@ glm::vec4 MapSampler::inLevel(const Image& level, const glm::vec2& uv, bool line
 }
 
 glm::vec4 MapSampler::atLevel(const glm::vec2& uv, float level) const {
+  if (single_) return only_;
   // Between magnifying and minifying filter: 0, but 1/2 where the one is linear and the other nearest in the nearest level (section 8.15).
   const bool late = sampler_.magnifyLinear && !sampler_.minifyLinear && sampler_.mips;
   if (!(level > (late ? 0.5f : 0.0f))) return inLevel(levels_[0], uv, sampler_.magnifyLinear);
@@ -67,6 +70,7 @@ glm::vec4 MapSampler::atLevel(const glm::vec2& uv, float level) const {
 }
 
 glm::vec4 MapSampler::at(const glm::vec2& uv, const Footprint& footprint) const {
+  if (single_) return only_;
   const glm::vec2 texels(size()), x = footprint.x * texels, y = footprint.y * texels;
   const float rho2 = std::max(glm::dot(x, x), glm::dot(y, y));
   return atLevel(uv, rho2 > 0 ? 0.5f * std::log2(rho2) : -1.0f);

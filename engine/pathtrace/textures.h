@@ -30,6 +30,8 @@ class MapSampler {
   std::vector<Image> levels_;
   Sampler sampler_;
   bool srgb_;
+  bool single_ = false;  ///< one texel: `only_` everywhere
+  glm::vec4 only_{0};
 };
 
 /// All maps of a scene's materials, each made once. Materials without a map, and maps that cannot be used, have the default's one texel.

@@ -9,9 +9,9 @@ import re
 import sys
 import tempfile
 
-PUBLIC_LAYERS = {"result": 1, "image": 1, "context": 1, "material": 2, "scene": 3, "quality": 2, "plan": 3, "renderer": 6, "measure": 6, "probe": 6}
+PUBLIC_LAYERS = {"result": 1, "image": 1, "context": 1, "material": 2, "scene": 3, "quality": 2, "plan": 3, "renderer": 6, "measure": 4, "probe": 6}
 PASSES = {"gbuffer", "lighting", "shadow", "transparency", "post"}
-NO_GL = {"core", "image", "asset", "material", "prefilter", "reference", "scene", "plan"}
+NO_GL = {"core", "image", "asset", "material", "prefilter", "reference", "scene", "plan", "pathtrace"}
 GL_USERS = {"gl", "gpu_scene", "gbuffer", "lighting", "shadow", "transparency", "post", "renderer", "stability", "probe", "context"}
 MAX_PUBLIC_HEADERS = 10
 

@@ -150,3 +150,31 @@ TEST_CASE("light: light sampling, surface sampling and both together agree") {
     checkAgree(sky.world(q), rayFrom({-1.2, 0.9, 0.1}, {-0.1, 0, 0}), 32768);
   }
 }
+
+TEST_CASE("light: bounces that look for bright spots at lamps change the noise alone") {
+  // A lamp 4 cm under a small plate, which lights the floor; the lamp itself shines upward.
+  Setting s;
+  s.add(rectangle(vec3(0), {3, 0, 0}, {0, 0, -3}), lambert(vec3(0.5f)));
+  s.add(rectangle({0, 2, 0}, {0.1f, 0, 0}, {0, 0, 0.1f}), lambert(vec3(0.8f)));
+  s.light({.kind = LightKind::Spot, .intensity = 10, .innerCone = 0.5f, .outerCone = 1}, {0, 1.96, 0}, {0, 1, 0});
+  const pathtrace::World world = s.world(lambertQuality());
+  // E on the plate at r from its middle: I cone² cos/d²; the floor sees its radiance 0.8 E/pi over the plate's 40,000 pieces.
+  const dvec3 at(0.7, 0, 0.2);
+  double exact = 0;
+  constexpr int kPieces = 200;
+  for (int i = 0; i < kPieces; ++i)
+    for (int j = 0; j < kPieces; ++j) {
+      const dvec3 p(0.2 * (i + 0.5) / kPieces - 0.1, 2, 0.2 * (j + 0.5) / kPieces - 0.1), way = p - at;
+      const double r2 = p.x * p.x + p.z * p.z, d2 = r2 + 0.04 * 0.04, cosine = 0.04 / std::sqrt(d2);
+      const double cone = std::clamp((cosine - std::cos(1)) / (std::cos(0.5) - std::cos(1)), 0.0, 1.0), e = 10 * cone * cone * cosine / d2;
+      const double l2 = glm::dot(way, way), facing = way.y / std::sqrt(l2);
+      exact += 0.8 * e / kPi * facing * facing / l2 * (0.04 / (kPieces * kPieces));
+    }
+  exact *= 0.5 / kPi;
+  const auto ray = rayFrom({0.7, 1, 1.2}, at);
+  const Mean seen = see(world, ray, 262144, 1).light[0], blind = see(world, ray, 131072, 1, Technique::Surfaces).light[0];
+  checkSeen(seen, exact, 2e-3);
+  CAPTURE(seen.error(), blind.value(), blind.error());
+  CHECK(std::abs(blind.value() - exact) < 4 * blind.error());
+  CHECK(blind.error() > 3 * seen.error());  // with half as many samples
+}

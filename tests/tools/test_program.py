@@ -97,15 +97,10 @@ class Help(Program):
             self.assertIn("--help", self.good(name, "--help").stdout)
 
     def test_scene_options_are_in_help(self):
-        for name in "render", "plan":
+        for name in "render", "plan", "reference":
             text = self.good(name, "--help").stdout
             for option in "--camera --eye --target --up --fov --time --animation --size --env --probes --exposure --quality --set --tonemap --backend --threads --json".split():
                 self.assertIn(option, text)
-
-    def test_what_does_not_work_yet_is_not_in_help(self):
-        texts = "".join(self.good(*words, "--help").stdout for words in [[]] + [[name] for name in SUBCOMMANDS])
-        for later in "reference".split():
-            self.assertNotRegex(texts, rf"(?<![\w-]){later}(?![\w-])")
 
     def test_help_costs_little(self):
         if SANITIZED:
@@ -1171,6 +1166,68 @@ class Cost(Program):
         self.bad(1, "cost", self.scene, "-o", self.out, "--reference", self.folder / "none.exr", says="none.exr")
         self.bad(1, "cost", self.folder / "none.gltf", "-o", self.out, says="none.gltf")
         self.bad(1, "cost", self.scene, "-o", self.scene / "in", says="in")
+
+
+class Reference(Program):
+    """burnish reference: files, JSON, interruption. What the light is like is test_pathtrace's."""
+    def reference(self, *arguments, output="a.exr"):
+        return json.loads(self.good("reference", self.scene, "-o", self.out / output, "--size", "40x30", *arguments, "--json", "-").stdout)
+
+    def test_writes_picture_layers_and_json(self):
+        report = self.reference("--spp", "20", "--seed", "7", "--bounces", "2", "--pixel", "centre", "--camera", "far", "--png", self.out / "a.png")
+        self.assertEqual(list(report), ["schema_version", "file", "scene", "camera", "size", "samples", "error", "seed", "bounces", "pixel", "seconds", "interrupted", "warnings"])
+        self.assertEqual([report[k] for k in ("samples", "seed", "bounces", "pixel", "camera", "size", "interrupted")], [20, 7, 2, "centre", "camera far", [40, 30], False])
+        self.assertEqual(sorted(f.name for f in self.out.iterdir()), ["a.exr", "a.png"])
+        # Viewers see the picture: its layers are no channels of it.
+        self.assertIn("size: 40x30, 3 channels, float", self.good("inspect", self.out / "a.exr").stdout)
+        header = (self.out / "a.exr").read_bytes()[:4096]
+        for name in b"direct.R", b"albedo.G", b"normal.Z", b"variance.B", b"samples", b"noise", b"software", b"seed", b"camera":
+            self.assertIn(name, header)
+
+    def test_seeds_and_threads(self):
+        names = ["one.exr", "two.exr", "other.exr"]
+        for name, more in zip(names, (["--threads", "1"], ["--threads", "2"], ["--threads", "1", "--seed", "2"])):
+            self.reference("--spp", "8", *more, output=name)
+        one, two, other = ((self.out / name).read_bytes() for name in names)
+        self.assertEqual(one, two)
+        self.assertNotEqual(one, other)
+
+    def test_until_error(self):
+        report = self.reference("--until-error", "0.05")
+        self.assertLess(report["error"], 0.05)
+        self.assertGreaterEqual(report["samples"], 16)
+
+    def test_interrupted_and_resumed(self):
+        whole = self.reference("--spp", "3000", "--threads", "1", output="whole.exr")
+        file = self.out / "a.exr"
+        command = [BURNISH, "reference", str(self.scene), "-o", str(file), "--size", "40x30", "--threads", "1", "--spp", "3000"]
+        process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, stdin=subprocess.DEVNULL)
+        said = ""
+        while "tracing" not in said and process.poll() is None:
+            said = process.stderr.readline()
+        process.send_signal(signal.SIGINT)
+        _, errors = process.communicate(timeout=120)
+        self.assertEqual(process.returncode, 1, errors)
+        self.assertIn("--resume", errors)
+        self.assertTrue(file.is_file() and pathlib.Path(str(file) + ".state").is_file())
+        report = self.reference("--spp", "3000", "--threads", "1", "--resume")
+        self.assertEqual(report["samples"], 3000)
+        self.assertLess(report["seconds"], 2 * whole["seconds"] + 1)
+        self.assertEqual(file.read_bytes(), (self.out / "whole.exr").read_bytes())
+        # The state stays with --resume, is of these options alone, and goes without.
+        self.bad(1, "reference", self.scene, "-o", file, "--size", "40x30", "--spp", "3000", "--seed", "9", "--resume", says=("a.exr.state", "another picture"))
+        self.reference("--spp", "8")
+        self.assertFalse(pathlib.Path(str(file) + ".state").exists())
+
+    def test_errors(self):
+        self.bad(2, "reference", self.scene, says="--output")
+        self.bad(2, "reference", self.scene, "-o", self.out / "a.png", says=".exr")
+        self.bad(2, "reference", self.scene, "-o", self.out / "a.exr", "--spp", "0", says="--spp")
+        self.bad(2, "reference", self.scene, "-o", self.out / "a.exr", "--until-error", "2", says="--until-error")
+        self.bad(2, "reference", self.scene, "-o", self.out / "a.exr", "--pixel", "center", says=("--pixel", "did you mean 'centre'"))
+        self.bad(1, "reference", self.scene, "-o", self.folder / "none" / "a.exr", says="none")
+        self.bad(1, "reference", self.folder / "none.gltf", "-o", self.out / "a.exr", says="none.gltf")
+        self.assertEqual(list(self.out.iterdir()), [])
 
 
 class Budget(Program):
