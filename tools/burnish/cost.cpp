@@ -140,6 +140,8 @@ int run(const CostArguments& a) {
   if (!a.noReference) {
     auto picture = a.reference.empty() ? trace(a, *loaded, progress) : burnish::readReference(a.reference);
     if (!picture) return failed(picture.error());
+    if (picture->pixelArea)
+      loaded->report.warn(a.reference, "its samples are spread over each pixel, and the renderer's go through the centres: edges count as errors (burnish reference --pixel centre)");
     truth = std::move(*picture);
   }
   const double minutes = a.minutes > 0 ? std::max(a.minutes - watch.seconds() / 60, 0.01) : 0;
@@ -173,7 +175,7 @@ Command addCost(CLI::App& program) {
   arguments->scene.size = {640, 360};
   arguments->scene.addTo(*app);
   app->add_option("-o,--output", arguments->output, "the folder for the page, its data and the reference; made if it is not there")->type_name("DIR")->required();
-  CLI::Option* given = app->add_option("--reference", arguments->reference, "ground truth that burnish reference wrote with --pixel-centers, in place of tracing it")->type_name("FILE");
+  CLI::Option* given = app->add_option("--reference", arguments->reference, "ground truth that burnish reference wrote with --pixel centre, in place of tracing it")->type_name("FILE");
   CLI::Option* samples = app->add_option("--reference-spp", arguments->referenceSamples, "samples of each pixel of ground truth; without: what a good quarter of the time gives")->type_name("N")->check(CLI::Range(1, 1000000));
   CLI::Option* none = app->add_flag("--no-reference", arguments->noReference, "no ground truth: errors are against exact rungs alone");
   given->excludes(samples)->excludes(none);
