@@ -19,7 +19,7 @@ import unittest
 import unittest.mock
 
 BURNISH = ""
-SUBCOMMANDS = ["render", "plan", "bake", "prefilter", "inspect", "doctor", "stability", "cost"]
+SUBCOMMANDS = ["render", "view", "plan", "bake", "prefilter", "reference", "cost", "inspect", "doctor", "stability"]
 SANITIZED = os.environ.get("BURNISH_SANITIZED") == "1"
 RENDER_KEYS = ["schema_version", "backend", "renderer", "size", "frames", "timing_mode", "frame_ms", "frame_cpu_ms", "passes", "effects", "programs",
                "plan", "gbuffer_bytes_per_pixel", "texture_bytes", "nonfinite_pixels", "gl_errors", "warnings", "rungs"]
@@ -1145,6 +1145,59 @@ class Cost(Program):
         self.bad(1, "cost", self.scene, "-o", self.out, "--reference", self.folder / "none.exr", says="none.exr")
         self.bad(1, "cost", self.folder / "none.gltf", "-o", self.out, says="none.gltf")
         self.bad(1, "cost", self.scene, "-o", self.scene / "in", says="in")
+
+
+class Budget(Program):
+    """Quality files, and what burnish cost --budget writes."""
+    def quality(self, **parts):
+        file = self.folder / "q.json"
+        file.write_text(json.dumps({"schema_version": 1, **parts}))
+        return file
+
+    def rungs(self, *arguments):
+        return json.loads(self.good("render", self.scene, "--size", "16x16", "-o", self.out / "a.png", *arguments, "--json", "-").stdout)["rungs"]
+
+    def test_a_quality_file_is_rendered_with(self):
+        file = self.quality(base="seed", terms={"fresnel": "none"})
+        rungs = self.rungs("--quality", file)
+        self.assertEqual((rungs["fresnel"], rungs["geometry"], rungs["diffuse"]), ("none", "void", "lambert"))
+        self.assertEqual(self.rungs("--quality", file, "--set", "fresnel=dielectric")["fresnel"], "dielectric")
+        plan = json.loads(self.good("plan", self.scene, "--quality", self.quality(terms={"bloom": "scatter"}), "--json", "-").stdout)
+        self.assertTrue(next(e for e in plan["effects"] if e["name"] == "bloom")["on"])
+
+    def test_the_tone_map_of_the_file_gives_way_to_the_option(self):
+        def picture(*arguments):
+            file = self.out / "a.png"
+            self.good("render", self.scene, "--size", "48x48", "--exposure", "1", *arguments, "-o", file)
+            return file.read_bytes()
+        file = self.quality(tone_map="aces")
+        self.assertEqual(picture("--quality", file), picture("--tonemap", "aces"))
+        self.assertEqual(picture("--quality", file, "--tonemap", "agx"), picture("--tonemap", "agx"))
+        self.assertNotEqual(picture("--quality", file), picture())
+
+    def test_presets_and_files_are_told_apart(self):
+        (self.folder / "seed").write_text(json.dumps({"schema_version": 1, "terms": {"fresnel": "none"}}))
+        def fresnel(name):
+            result = subprocess.run([os.path.abspath(BURNISH), "render", str(self.scene), "--size", "16x16", "-o", str(self.out / "a.png"), "--quality", name, "--json", "-"],
+                                    cwd=self.folder, capture_output=True, text=True, timeout=300)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            return json.loads(result.stdout)["rungs"]["fresnel"]
+        self.assertEqual(fresnel("seed"), "schlick")
+        self.assertEqual(fresnel("./seed"), "none")
+        self.bad(2, "plan", self.scene, "--quality", "sead", says=("--quality", "did you mean 'seed'", "exact", "./sead"))
+
+    def test_faulty_quality_files_are_one_error(self):
+        self.bad(1, "plan", self.scene, "--quality", self.folder / "none.json", says="none.json")
+        self.bad(1, "plan", self.scene, "--quality", self.folder, says=str(self.folder))
+        file = self.quality(terms={"fresnel": "schlik"})
+        for command in ["plan"], ["render", "-o", self.out / "a.png"]:
+            self.bad(1, command[0], self.scene, *command[1:], "--quality", file, says=("q.json: /terms/fresnel", "did you mean 'schlick'"))
+        self.assertEqual(list(self.out.iterdir()), [])
+        file.write_text("{")
+        self.bad(1, "plan", self.scene, "--quality", file, says=("q.json", "not JSON"))
+        os.remove(file)
+        os.mkfifo(file)
+        self.bad(1, "plan", self.scene, "--quality", file, says="q.json")
 
 
 class Stability(Program):
