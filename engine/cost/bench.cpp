@@ -89,6 +89,7 @@ Result<const Image*> Bench::picture(const Quality& quality) {
     if (kept->key == key) return &kept->picture;
   RenderRequest request;
   request.output = Output::Linear;
+  request.displayLight = true;  // what the light buffer rounds off is part of what a user sees
   if (const auto stats = b.renderer->render(b.scene, {&b.view, 1}, b.linear->target(), key, request); !stats) return fail(stats.error());
   b.targets = b.renderer->lastPlan().targets;
   auto read = b.linear->read();

@@ -7,7 +7,7 @@
 namespace burnish::cost {
 namespace {
 
-constexpr double kSame = 1e-5;  ///< of rms: what rounding in the buffers makes of pictures that are meant to be equal
+constexpr double kSame = 2.9e-4;  ///< of rms: what the light buffer's half floats round off at most, uniform over 2^-11 of a value
 
 bool dominates(const RungCost& a, const Spread& timeA, const RungCost& b, const Spread& timeB) {
   if (timeA.count == 0 || timeB.count == 0) return false;

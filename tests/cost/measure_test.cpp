@@ -171,7 +171,11 @@ TEST_CASE("measure: terms that nothing calls for are left out, each with a reaso
     CHECK(!listed(lit, name));
     CHECK(idleReason(lit, name).size() > 10);
   }
-  CHECK(lit.terms.size() + lit.idle.size() == terms().size());
+  for (const Term& t : terms()) {
+    INFO(t.name);
+    const bool choice = t.name == "normal-storage" || t.name == "light-buffer";  // measured with the sizes and formats
+    CHECK((listed(lit, t.name) || !idleReason(lit, t.name).empty()) == !choice);
+  }
   for (const TermToMeasure& t : lit.terms) {
     const std::string name(terms()[t.term].name);
     INFO(name);
