@@ -36,10 +36,6 @@ std::vector<std::string> settingsOf(const Quality& quality, const Quality& base)
   addNumber(out, "light-threshold", quality.lightThreshold, base.lightThreshold);
   addNumber(out, "occlusion-radius", quality.occlusionRadius, base.occlusionRadius);
   addNumber(out, "transparent-layers", quality.transparentLayers, base.transparentLayers);
-  constexpr const char* kNormals[] = {"oct-8", "oct-12", "oct-16"};
-  constexpr const char* kLight[] = {"r11g11b10", "rgba16f", "rgba32f"};
-  addNumber(out, "normal-storage", std::string(kNormals[std::size_t(quality.normalStorage)]), std::string(kNormals[std::size_t(base.normalStorage)]));
-  addNumber(out, "light-buffer", std::string(kLight[std::size_t(quality.lightBuffer)]), std::string(kLight[std::size_t(base.lightBuffer)]));
   return out;
 }
 

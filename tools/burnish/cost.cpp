@@ -184,6 +184,8 @@ Command addCost(CLI::App& program) {
   app->add_option("--rounds", arguments->rounds, "pairs of frames behind each time, at most; fewer when the time runs short, but 3 (7)")->type_name("N")->check(CLI::Range(3, 1000));
   std::vector<std::string> names;
   for (const burnish::Term& term : burnish::terms()) names.emplace_back(term.name);
+  for (const std::string_view choice : burnish::costChoices())
+    if (std::find(names.begin(), names.end(), choice) == names.end()) names.emplace_back(choice);
   app->add_option_function<std::vector<std::string>>(
          "--term",
          [arguments, names](const std::vector<std::string>& texts) {
