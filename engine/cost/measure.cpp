@@ -139,16 +139,19 @@ Result<void> Run::terms() {
   int fewest = options_.rounds;
   for (std::size_t i = 0; i < ladders_.size(); ++i) {
     Ladder& ladder = ladders_[i];
+    if (clock_.left(kBesideExactUntil) <= 0) {
+      for (std::size_t k = i; k < ladders_.size(); ++k) report_.idle.emplace_back(ladders_[k].cost.name, "the time was up");
+      ladders_.resize(i);
+      break;
+    }
     if (auto told = tell(0.05 + 0.6 * double(i) / double(ladders_.size()), ladder.cost.name); !told) return told;
     const double before = clock_.seconds();
     if (auto judged = judge(bench_, ladder, against_); !judged) return judged;
     seconds += clock_.seconds() - before, pictures += double(ladder.qualities.size());
     pictureSeconds_ = seconds / pictures;
-    if (clock_.left(kBesideExactUntil) > 0) {
-      const int rounds = roundsFor(i);
-      fewest = std::min(fewest, rounds);
-      if (auto timed = timeRungs(bench_, ladder, rounds, clock_); !timed) return timed;
-    }
+    const int rounds = roundsFor(i);
+    fewest = std::min(fewest, rounds);
+    if (auto timed = timeRungs(bench_, ladder, rounds, clock_); !timed) return timed;
     bench_.forget({&exact_, 1});
   }
   if (fewest < options_.rounds) report_.warnings.push_back(fmt::format("the time allowed {} rounds of the {} asked for in some terms: --minutes gives more", fewest, options_.rounds));
@@ -208,8 +211,11 @@ Result<void> Run::end() {
 
 Result<void> check(const CostOptions& options) {
   if (options.size.x < 1 || options.size.y < 1) return fail("cost", fmt::format("its pictures are {} x {}", options.size.x, options.size.y), "give at least 1 x 1");
-  for (const std::string& name : options.terms)
-    if (std::none_of(terms().begin(), terms().end(), [&](const Term& t) { return t.name == name; }) && std::find(costChoices().begin(), costChoices().end(), name) == costChoices().end()) return fail("cost", fmt::format("'{}' is no term", name), "burnish render --list-rungs lists them");
+  for (const std::string& name : options.terms) {
+    const bool term = std::any_of(terms().begin(), terms().end(), [&](const Term& t) { return t.name == name; });
+    const bool choice = std::find(costChoices().begin(), costChoices().end(), name) != costChoices().end();
+    if (!term && !choice) return fail("cost", fmt::format("'{}' is no term", name), "burnish render --list-rungs lists them");
+  }
   if (options.truth && (options.truth->radiance.width != options.size.x || options.truth->radiance.height != options.size.y))
     return fail("cost", fmt::format("the reference is {} x {} and the pictures {} x {}", options.truth->radiance.width, options.truth->radiance.height, options.size.x, options.size.y), "trace one of this size");
   return {};
