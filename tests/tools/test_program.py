@@ -1132,10 +1132,15 @@ class Cost(Program):
         self.assertTrue((self.out / "reference.exr").is_file())
         # The reference is taken up again: no second one is traced.
         before = (self.out / "reference.exr").read_bytes()
-        self.cost("--term", "lobe", "--reference", self.out / "reference.exr")
-        self.assertEqual((self.out / "reference.exr").read_bytes(), before)
+        for more in ["--reference", self.out / "reference.exr"], []:
+            self.cost("--term", "lobe", *more)
+            self.assertEqual((self.out / "reference.exr").read_bytes(), before)
+            again = json.loads((self.out / "cost.json").read_text())
+            self.assertEqual((again["base"]["error"], again["reference"]["samples"]), (report["base"]["error"], 4))
+        # Of another size it does not fit: another one is traced.
+        self.good("cost", self.scene, "-o", self.out, "--size", "32x32", "--rounds", "3", "--no-choices", "--term", "lobe", "--reference-spp", "2")
         again = json.loads((self.out / "cost.json").read_text())
-        self.assertEqual(again["base"]["error"], report["base"]["error"])
+        self.assertEqual((again["size"], again["reference"]["samples"]), ([32, 32], 2))
 
     def test_errors(self):
         self.bad(2, "cost", self.scene, says="--output")
