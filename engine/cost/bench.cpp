@@ -48,6 +48,7 @@ Result<std::unique_ptr<Bench>> Bench::create(const ProcAddress& getProcAddress, 
   auto renderer = Renderer::create(getProcAddress);
   if (!renderer) return fail(renderer.error());
   b.renderer = std::move(*renderer);
+  b.finish = reinterpret_cast<void (*)()>(getProcAddress("glFinish"));
   for (const auto& [target, output] : {std::pair(&b.display, Output::Display), std::pair(&b.linear, Output::Linear)}) {
     auto made = OffscreenTarget::create(getProcAddress, size, output);
     if (!made) return fail(made.error());
