@@ -49,10 +49,10 @@ Hash128 kept(std::unordered_map<std::uint32_t, Hash128>& known, const Table<T>& 
 }  // namespace
 
 Hash128 hashOf(const Environment& environment) {
-  const auto& [map, color, scale, background, revision, sun] = environment;
+  const auto& [map, color, scale, background, revision, sun, filterSize, filterError] = environment;
   (void)revision;  // counts changes, which the content tells
   Hasher h;
-  add(h, map), add(h, color), h.value(scale), h.value(background), h.value(sun.has_value());
+  add(h, map), add(h, color), h.value(scale), h.value(background), h.value(filterSize), h.value(filterError), h.value(sun.has_value());
   if (sun) {
     const auto& [toSun, radiance, radius, horizon] = *sun;
     add(h, toSun), add(h, radiance), h.value(radius), h.value(horizon);

@@ -216,6 +216,13 @@ void SceneOptions::addViewTo(CLI::App& app) {
          },
          "EV100, or auto (the default): from this picture alone")
       ->type_name("EV|auto");
+  addParsed(
+      app, "--scale", "S", "pixels shaded along a side, over those of the picture, which is enlarged from them: 0.25 to 1", scale,
+      [](std::string_view text) -> std::optional<float> {
+        const auto value = parseNumber(text);
+        return value && *value >= 0.25 && *value <= 1 ? std::optional(float(*value)) : std::nullopt;
+      },
+      "a scale from 0.25 to 1");
   addChoice(app, "--tonemap", texts(burnish::toneMapNames()), [this](std::size_t i) { development.toneMap = burnish::ToneMap(i), toneMapGiven = true; }, "how radiance becomes colour");
 }
 
@@ -278,6 +285,7 @@ burnish::Quality SceneOptions::quality() const {
   } else {
     (void)burnish::setPreset(q, preset);  // names were checked when they were parsed
   }
+  if (scale) q.resolutionScale = *scale;
   for (const auto& [term, rung] : sets) (void)burnish::setRung(q, term, rung);
   return q;
 }

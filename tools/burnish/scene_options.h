@@ -20,6 +20,7 @@ struct SceneOptions {
   std::optional<burnish::Result<burnish::Quality>> qualityFile;
   std::vector<std::pair<std::string, std::string>> sets;  ///< term and rung, in the order given
   burnish::Quality development;                           ///< tone map and exposure
+  std::optional<float> scale;                             ///< Quality::resolutionScale
   bool toneMapGiven = false;                              ///< else a quality file's counts
   burnish::Backend backend = burnish::Backend::Egl;
   int threads = 0;  ///< 0: as many as there are
