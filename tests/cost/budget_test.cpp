@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
@@ -25,15 +26,14 @@ bool longRun() { return std::getenv("BURNISH_LONG") != nullptr; }
 Scene bench(View& view) {
   Scene scene;
   Material floor;
-  floor.baseColor = {0.5f, 0.45f, 0.4f, 1};
+  floor.albedo = {0.5f, 0.45f, 0.4f};
   floor.roughness = 0.35f;
-  floor.metallic = 0;
   test::place(scene, test::quad({0, 0, 0}, {6, 0, 0}, {0, 0, -6}), floor);
   for (int i = 0; i < 9; ++i) {
     Material m;
-    m.baseColor = {0.9f - 0.08f * float(i), 0.3f + 0.07f * float(i), 0.5f, 1};
+    m.albedo = {0.9f - 0.08f * float(i), 0.3f + 0.07f * float(i), 0.5f};
     m.roughness = 0.08f + 0.1f * float(i);
-    m.metallic = i % 3 == 0 ? 1.0f : 0.0f;
+    m.substance = i % 3 == 0 ? 0.9f : 1.0f / 3;
     test::place(scene, test::sphere(0.45f, 24, 32), m, test::translation({double(i % 3) * 1.3 - 1.3, 0.45, double(i / 3) * 1.3 - 1.3}));
   }
   Light sun = test::light(LightKind::Directional, {1, 0.95f, 0.9f}, 3);
@@ -94,15 +94,15 @@ struct Subject {
   Draws draw(int count, const std::vector<BudgetResult>& results) {
     Draws draws;
     std::mt19937 random(20261129);
-    double leastError = 1e9, mostRatio = 0;
-    for (const BudgetResult& r : results) leastError = std::min(leastError, r.best.error.rms), mostRatio = std::max(mostRatio, r.ms / report.base.ms.median);
     double worstError = 0;
     for (const BudgetResult& r : results) worstError = std::max(worstError, r.best.error.rms);
     for (int i = 0; i < count; ++i) {
       Choice choice;
       for (const Factor& f : factors->all()) choice.push_back(std::uint16_t(random() % f.levels.size()));
       const Quality q = factors->quality(choice);
-      const double rms = error(q);
+      // What the search rendered has its error there; it is the same to the last bit (held above).
+      const auto known = std::find_if(report.front.begin(), report.front.end(), [&](const FrontPoint& p) { return p.quality == q; });
+      const double rms = known != report.front.end() ? known->error.rms : error(q);
       ++draws.drawn;
       if (rms >= worstError) continue;  // no better for any budget, however fast
       Spread r = ratio(q, 3);
@@ -147,16 +147,17 @@ TEST_CASE("A budget's quality fits when it is timed again, and random rungs that
   const Scene scene = bench(view);
   CostOptions options;
   options.size = {160, 90};
-  options.terms = {"diffuse", "fresnel", "environment-specular", "shadow", "geometry"};
+  options.terms = {"diffuse", "compensation", "shadow"};
+  if (longRun()) options.terms.insert(options.terms.end(), {"fresnel", "environment-specular", "geometry"});
   options.choices = false;
   Subject subject(context->procAddress(), scene, view, options);
   Report warnings;
-  auto results = spendBudget(context->procAddress(), scene, view, options, shares(subject, {0.8, 1.0}, longRun() ? 0 : 0.25), subject.report, warnings);
+  auto results = spendBudget(context->procAddress(), scene, view, options, shares(subject, {0.8, 1.0}, 0), subject.report, warnings);
   if (!results) FAIL(results.error().message());
   print(subject, *results);
   for (const BudgetResult& r : *results) {
     const double budget = r.ms / subject.report.base.ms.median;
-    CHECK(r.measured > 20);
+    CHECK(r.measured > 10);
     if (!r.met) continue;
     const Spread again = subject.ratio(r.best.quality, 11);
     INFO(fmt::format("{} of {}: {:.4f} ({:.4f} to {:.4f})", fmt::join(r.best.settings, ", "), budget, again.median, again.low, again.high));
@@ -168,7 +169,7 @@ TEST_CASE("A budget's quality fits when it is timed again, and random rungs that
   CHECK((*results)[1].met);  // the base itself takes 100 %
   CHECK((*results)[1].best.error.rms <= subject.report.base.error.rms);
   for (std::size_t i = 1; i < subject.report.front.size(); ++i) CHECK(subject.report.front[i].ms.median >= subject.report.front[i - 1].ms.median);
-  CHECK(subject.report.front.size() > 20);
+  CHECK(subject.report.front.size() > 10);
   const Draws draws = subject.draw(longRun() ? 200 : 50, *results);
   std::cout << fmt::format("{} random sets, {} timed, {} better {}\n", draws.drawn, draws.timed, draws.better, draws.worst);
   CHECK(draws.better == 0);
