@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 
 #include "cost/terms.h"
 
@@ -34,7 +35,7 @@ Factor lobeFactor(const std::vector<const TermToMeasure*>& parts, const Quality&
   for (const TermToMeasure* part : parts) count *= part->rungs.size();
   for (std::size_t i = 0; i < count; ++i) {
     Level level;
-    Quality q = base;
+    Quality q;  // of other terms nothing is idle
     std::size_t rest = i;
     for (const TermToMeasure* part : parts) {
       level.rungs.emplace_back(part->term, part->rungs[rest % part->rungs.size()]);
@@ -109,21 +110,32 @@ Factors::Factors(const Bench& bench, const std::vector<std::string>& only, bool 
     else factors_.push_back(factorOf(term));
   }
   if (!lobe.empty()) factors_.insert(factors_.begin(), lobeFactor(lobe, base_));
+  const auto changes = [&](const Factor& f) {
+    return std::any_of(f.levels.begin(), f.levels.end(), [&](const Level& level) {
+      Quality other = base_;
+      level.apply(other);
+      return !changedPasses(bench.plan(base_), bench.plan(other)).empty();
+    });
+  };
   for (std::size_t t = 0; t < terms().size(); ++t) {
     const std::string_view name = terms()[t].name;
-    const bool idle = std::any_of(found.idle.begin(), found.idle.end(), [&](const auto& i) { return i.first == name; });
-    if (idle && !contains(kUnseen, name)) idle_.push_back(t);
+    if (contains(kUnseen, name) || std::any_of(found.terms.begin(), found.terms.end(), [&](const TermToMeasure& m) { return m.term == t; })) continue;
+    if (std::any_of(found.idle.begin(), found.idle.end(), [&](const auto& i) { return i.first == name; })) {
+      idle_.push_back(t);
+    } else if (sizes && only.empty()) {  // measured among the choices, as how the G-buffer holds normals
+      TermToMeasure all;
+      all.term = t;
+      for (std::size_t r = 0; r < terms()[t].rungs.size(); ++r) all.rungs.push_back(r);
+      if (Factor f = factorOf(all); changes(f)) factors_.push_back(std::move(f));
+    }
   }
   if (sizes) {
     Factor shadows, scale;
     shadows.name = "shadow-resolution", scale.name = "resolution-scale";
     for (const int texels : kShadowResolutions) shadows.levels.push_back({{}, texels, 0});
     for (const float s : kScales) scale.levels.push_back({{}, 0, s});
-    for (const Factor& f : {shadows, scale}) {
-      Quality other = base_;
-      f.levels.front().apply(other);
-      if (!changedPasses(bench.plan(base_), bench.plan(other)).empty()) factors_.push_back(f);
-    }
+    for (Factor& f : {std::ref(shadows), std::ref(scale)})
+      if (changes(f)) factors_.push_back(std::move(f));
   }
   for (Factor& f : factors_) settle(f, ownLevel(f, base_), base_);
 }

@@ -13,6 +13,7 @@ constexpr std::size_t kBatch = 6, kStarts = 4, kVerified = 4, kNeighbours = 24;
 constexpr std::array kSlack{0.0, 0.02, 0.0, 0.05, 0.0, 0.1};  ///< how much more than the goal is looked at after so many batches without a better one, for models err; after the last the search ends
 constexpr double kClearly = 2e-3;  ///< an error is lower where it is so by this share, and by the noise of ground truth
 constexpr double kWorthTiming = 1.25;  ///< of the best error so far: what misses more is not timed
+constexpr double kHopeless = 1.1;  ///< times the largest goal: what takes longer even with all that other settings save
 constexpr double kFarTimes = 3;    ///< times beyond this many times the largest goal say nothing
 
 bool clearlyLower(const PictureError& a, const PictureError& b) { return a.rms + std::max(kClearly * b.rms, a.rmsSpread) < b.rms; }
@@ -111,11 +112,12 @@ Result<void> Spender::begin(const CostReport& cost, const std::vector<Goal>& goa
   std::vector<Choice> untimed;
   for (std::size_t i = 0; i < singles.size(); ++i) {
     const Sample* known = samples_.find(singles[i]);
-    if (i > 0 && known && known->ratio.count > 0 && known->ratio.median - allSaves > 1.1 * most) continue;
+    const bool timed = known && known->ratio.count > 0;
+    if (i > 0 && timed && known->ratio.median - allSaves > kHopeless * most) continue;
     if (i > 0 && !timeLeft(clock_, until)) break;
     clock_.tell(until * double(i) / double(singles.size()), "single settings");
     if (auto done = picture(singles[i]); !done) return done;
-    if (!known || known->ratio.count == 0) untimed.push_back(singles[i]);
+    if (!timed) untimed.push_back(singles[i]);
     if (auto end = stopped(); !end) return end;
   }
   return measure(untimed, {0, 1e9});
