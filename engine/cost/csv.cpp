@@ -35,16 +35,16 @@ std::string csvCell(std::string_view text) {
 }
 
 std::string costCsv(const CostReport& cost) {
-  std::string out = "term,kind,rung,in_force,exact_rung,dominated";
+  std::string out = "term,kind,setting,rung,in_force,exact_rung,dominated";
   for (const std::string_view time : {"pass", "frame", "pass_exact_rest"}) out += fmt::format(",{0}_median_ms,{0}_low_ms,{0}_high_ms,{0}_count", time);
   for (const std::string_view against : kErrors)
     out += fmt::format(",{0}_rms,{0}_rms_spread,{0}_psnr_db,{0}_butteraugli,{0}_p999,{0}_energy,{0}_skipped_pixels", against);
   out += ",note\r\n";
   for (const TermCost& term : cost.terms)
     for (const RungCost& rung : term.rungs) {
-      out += fmt::format("{},{},{},{},{},{}", csvCell(term.name), term.choice ? "choice" : "term", csvCell(rung.name), rung.inForce ? 1 : 0, rung.name == term.exactRung ? 1 : 0, rung.dominated ? 1 : 0);
+      out += fmt::format("{},{},{},{},{},{},{}", csvCell(term.name), term.choice ? "choice" : "term", csvCell(term.setting), csvCell(rung.name), rung.inForce ? 1 : 0, rung.name == term.exactRung ? 1 : 0, rung.dominated ? 1 : 0);
       out += cells(rung.passMs) + cells(rung.frameMs) + cells(rung.exactPassMs);
-      out += cells(rung.exact) + cells(rung.exactRest) + cells(rung.truth);
+      out += cells(rung.exact) + cells(restMeasured(rung) ? rung.exactRest : PictureError{}) + cells(rung.truth);
       out += fmt::format(",{}\r\n", csvCell(rung.note));
     }
   return out;

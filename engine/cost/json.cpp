@@ -52,7 +52,7 @@ Json rung(const RungCost& r, const char* clock) {
           {"frame_ms", spread(r.frameMs)},
           {"exact_rest_ms", spread(r.exactPassMs)},
           {"error", error(r.exact)},
-          {"error_exact_rest", error(r.exactRest)},
+          {"error_exact_rest", restMeasured(r) ? error(r.exactRest) : Json()},
           {"error_truth", error(r.truth)},
           {"dominated", r.dominated},
           {"note", cleanText(r.note)}};
@@ -61,7 +61,7 @@ Json rung(const RungCost& r, const char* clock) {
 Json termJson(const TermCost& t, const char* clock) {
   Json rungs = Json::array();
   for (const RungCost& r : t.rungs) rungs.push_back(rung(r, clock));
-  return {{"term", cleanText(t.name)}, {"what", cleanText(t.what)}, {"called_by", cleanText(t.calledBy)}, {"choice", t.choice}, {"exact_rung", cleanText(t.exactRung)}, {"rungs", rungs}};
+  return {{"term", cleanText(t.name)}, {"what", cleanText(t.what)}, {"called_by", cleanText(t.calledBy)}, {"choice", t.choice}, {"setting", cleanText(t.setting)}, {"exact_rung", cleanText(t.exactRung)}, {"rungs", rungs}};
 }
 
 Json budget(const BudgetResult& b) {

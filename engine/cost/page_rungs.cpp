@@ -35,7 +35,7 @@ struct Columns {
     pass = any([](const RungCost& r) { return measured(r.passMs); });
     frame = any([](const RungCost& r) { return measured(r.frameMs); });
     exactPass = any([](const RungCost& r) { return measured(r.exactPassMs); });
-    exactRest = any([](const RungCost& r) { return measured(r.exactRest); });
+    exactRest = any([](const RungCost& r) { return restMeasured(r); });
     truth = any([](const RungCost& r) { return measured(r.truth); });
   }
   [[nodiscard]] int count() const { return 6 + pass + frame + exactPass + 2 * exactRest + 3 * truth; }
@@ -70,7 +70,7 @@ std::string rungTable(const PageInput&, const TermCost& term) {
     cell(c.pass, timeCell(r.passMs)), cell(c.frame, timeCell(r.frameMs)), cell(c.exactPass, timeCell(r.exactPassMs));
     const PictureError& e = r.exact;
     cell(true, withSpread(e)), cell(true, ofError(e, number(e.psnr))), cell(true, ofError(e, number(e.perceptual))), cell(true, ofError(e, percent(e.p999))), cell(true, ofError(e, signedPercent(e.energy)));
-    cell(c.exactRest, withSpread(r.exactRest)), cell(c.exactRest, ofError(r.exactRest, signedPercent(r.exactRest.energy)));
+    cell(c.exactRest, restMeasured(r) ? withSpread(r.exactRest) : "n/a"), cell(c.exactRest, restMeasured(r) ? signedPercent(r.exactRest.energy) : "n/a");
     cell(c.truth, withSpread(r.truth)), cell(c.truth, ofError(r.truth, number(r.truth.perceptual))), cell(c.truth, ofError(r.truth, signedPercent(r.truth.energy)));
     out += "</tr>\n";
     if (!r.note.empty()) out += fmt::format("<tr class=\"note\"><td colspan=\"{}\">{}: {}</td></tr>\n", c.count(), escaped(r.name), escaped(r.note));

@@ -47,6 +47,7 @@ std::string termSection(const PageInput& in, std::size_t i) {
   const TermCost& t = in.cost.terms[i];
   std::string out = fmt::format("<article class=\"term\" id=\"{}-section\">\n<h3>{} <span class=\"what\">{}</span></h3>\n", in.ladders[i].name, escaped(t.name), escaped(t.what));
   if (!t.calledBy.empty()) out += fmt::format("<p class=\"soft\">Called for by {}.</p>\n", escaped(t.calledBy));
+  if (!t.setting.empty()) out += fmt::format("<p class=\"soft\">Measured with <code>{}</code>, without which it has no part.</p>\n", escaped(t.setting));
   out += plotBox(in.ladders[i]);
   out += fmt::format("<details><summary>All figures of {}</summary>{}</details>\n", escaped(t.name), scrollBox("Figures of " + t.name, rungTable(in, t)));
   const bool any = std::any_of(t.rungs.begin(), t.rungs.end(), [&](const RungCost& r) { return in.pictures.has(r.picture); });

@@ -124,6 +124,8 @@ std::string spreadText(const Spread& spread) {
 bool measured(const PictureError& error) { return std::isfinite(error.rms) && (error.rms != 0 || error.psnr != 0); }
 bool measured(const Spread& spread) { return spread.count > 0 && std::isfinite(spread.median); }
 
+bool restMeasured(const RungCost& rung) { return rung.exactRestKnown && measured(rung.exactRest); }
+
 bool hasTruth(const CostReport& cost) { return cost.against == "ground truth" || cost.referenceSamples > 0 || !cost.truthPicture.empty(); }
 
 std::string_view presetOf(const CostReport& cost, const FrontPoint& point) {

@@ -30,6 +30,8 @@ std::string spreadText(const Spread& spread);
 /// Whether anything was measured: a picture that was compared has a psnr above 0.
 bool measured(const PictureError& error);
 bool measured(const Spread& spread);
+/// Against the exact rung with the rest as in the preset `exact`: rendered, and a figure.
+bool restMeasured(const RungCost& rung);
 /// Errors count against ground truth and not against the preset `exact` alone.
 bool hasTruth(const CostReport& cost);
 /// The preset that has this point's rungs on top of the base quality; empty: none.

@@ -60,7 +60,7 @@ void errorMarks(Svg& svg, const Axis& axis, const TermCost& term, const RungCost
       svg.line(axis.at(rung.truth.rms - rung.truth.rmsSpread), y, axis.at(rung.truth.rms + rung.truth.rmsSpread), y, "spread");
     svg.rect(x - 4, y - 4, 8, 8, "dot truth");
   }
-  if (measured(rung.exactRest) && rung.name != term.exactRung) svg.circle(axis.at(rung.exactRest.rms), y, 5, "hollow");
+  if (restMeasured(rung) && rung.name != term.exactRung) svg.circle(axis.at(rung.exactRest.rms), y, 5, "hollow");
   if (measured(rung.exact)) {
     if (rung.name == term.exactRung) diamond(svg, axis.at(rung.exact.rms), y, 6.5, "dot best");
     else svg.circle(axis.at(rung.exact.rms), y, 5, "dot error");
@@ -77,10 +77,10 @@ void legend(Svg& svg, const TermCost& term, double y) {
     symbol(x, y);
     x -= 20;
   };
-  const auto any = [&](PictureError RungCost::* error) { return std::any_of(term.rungs.begin(), term.rungs.end(), [&](const RungCost& r) { return measured(r.*error); }); };
-  if (any(&RungCost::truth)) entry("against ground truth", [&](double sx, double sy) { svg.rect(sx - 4, sy - 4, 8, 8, "dot truth"); });
+  const auto any = [&](const auto& is) { return std::any_of(term.rungs.begin(), term.rungs.end(), is); };
+  if (any([](const RungCost& r) { return measured(r.truth); })) entry("against ground truth", [&](double sx, double sy) { svg.rect(sx - 4, sy - 4, 8, 8, "dot truth"); });
   entry("the exact rung", [&](double sx, double sy) { diamond(svg, sx, sy, 6, "dot best"); });
-  if (any(&RungCost::exactRest)) entry("the rest exact", [&](double sx, double sy) { svg.circle(sx, sy, 4.5, "hollow"); });
+  if (any(restMeasured)) entry("the rest exact", [&](double sx, double sy) { svg.circle(sx, sy, 4.5, "hollow"); });
   entry("against exact, the rest as in the base", [&](double sx, double sy) { svg.circle(sx, sy, 4.5, "dot error"); });
 }
 
@@ -99,8 +99,8 @@ Plot ladderPlot(const CostReport& cost, const TermCost& term, std::string name) 
   std::vector<double> times, errors;
   for (const RungCost& r : term.rungs) {
     if (measured(r.*timed)) times.insert(times.end(), {(r.*timed).median, (r.*timed).high});
-    for (const PictureError* e : {&r.exact, &r.exactRest, &r.truth})
-      if (measured(*e)) errors.push_back(e->rms);
+    for (const auto& [is, e] : {std::pair{measured(r.exact), &r.exact}, std::pair{restMeasured(r), &r.exactRest}, std::pair{measured(r.truth), &r.truth}})
+      if (is) errors.push_back(e->rms);
   }
   const auto largest = std::max_element(times.begin(), times.end()), least = std::min_element(times.begin(), times.end());
   // Bars start from zero; where one rung takes many times as long as another, dots on a logarithmic axis.

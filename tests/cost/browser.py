@@ -105,6 +105,7 @@ class _Proxy(http.server.BaseHTTPRequestHandler):
 def _chromium(arguments, folder):
     server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), _Proxy)
     server.requests = []
+    server.handle_error = lambda *_: None  # a browser that hangs up
     threading.Thread(target=server.serve_forever, daemon=True).start()
     # A home of its own, so that nothing of the user's is read or written.
     environment = dict(os.environ, HOME=folder, XDG_CONFIG_HOME=folder, XDG_CACHE_HOME=folder)

@@ -60,6 +60,7 @@ TermCost term(const char* name, std::initializer_list<const char*> rungs, std::s
     const bool last = left == 0;
     r.name = rung, r.inForce = i == base, r.dominated = i == 1 && rungs.size() > 3;
     const double ms = 4.1 + 0.35 * static_cast<double>(i) + (r.dominated ? 1.2 : 0), rms = last ? 0 : scale * std::pow(left, 1.7);
+    r.exactRestKnown = true;
     r.passMs = spread(last ? ms * slow : ms), r.frameMs = spread(r.passMs.median + 9), r.exactPassMs = spread(r.passMs.median * 1.8);
     r.exact = error(rms), r.exactRest = error(rms * 0.8), r.truth = error(std::hypot(rms, 0.06), 0.002);
     r.picture = picture(gloss - 6 * left, 0.5 - 0.04 * left), r.difference = difference(gloss - 6 * left, 0.5 - 0.04 * left, gloss, 0.5);
@@ -117,6 +118,8 @@ MadeReport fullReport() {
              term("compensation", {"none", "multiple-scattering"}, 0, 0.01), term("lobe", {"pow", "exp2", "stable"}, 2, 1e-6)};
   c.terms.push_back(term("shadow-resolution", {"256", "512", "1024", "2048", "4096"}, 2, 0.006));
   c.terms.back().choice = true;
+  c.terms[5].setting = "geometry=void";
+  c.terms[4].rungs[0].exactRestKnown = false;
   c.front = front();
   Quality seed, exact;
   static_cast<void>(setPreset(seed, "seed")), static_cast<void>(setPreset(exact, "exact"));
