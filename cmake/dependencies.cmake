@@ -14,6 +14,11 @@ find_path(JXL_INCLUDE_DIR jxl/butteraugli.h REQUIRED)
 find_library(JXL_LIBRARY jxl REQUIRED)
 add_library(JXL::JXL UNKNOWN IMPORTED)
 set_target_properties(JXL::JXL PROPERTIES IMPORTED_LOCATION ${JXL_LIBRARY} INTERFACE_INCLUDE_DIRECTORIES ${JXL_INCLUDE_DIR})
+if(BURNISH_BUILD_TOOLS)
+  find_path(IMGUI_INCLUDE_DIR imgui.h PATH_SUFFIXES imgui REQUIRED)  # with its GLFW and OpenGL backends
+  find_library(IMGUI_LIBRARY imgui REQUIRED)
+  find_library(STB_LIBRARY NAMES libstb.a REQUIRED)  # the font rasterizer that the distribution takes out of ImGui
+endif()
 find_path(KISSFFT_INCLUDE_DIR kissfft/kissfft.hh REQUIRED)  # header only
 
 # What the public headers include.

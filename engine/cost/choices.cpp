@@ -33,8 +33,8 @@ class Run {
   explicit Run(const ChoicesRun& run) : r_(run) {}
 
   Result<Choices> all() {
-    std::vector<Choice> rows = choicesOf(r_.bench, r_.options.terms, out_.idle);
-    for (const Choice& choice : rows)
+    std::vector<QualityChoice> rows = choicesOf(r_.bench, r_.options.terms, out_.idle);
+    for (const QualityChoice& choice : rows)
       if (auto done = measure(choice); !done) return fail(done.error());
     if (auto done = measureFilter(); !done) return fail(done.error());
     if (auto done = measureProbes(); !done) return fail(done.error());
@@ -61,8 +61,8 @@ class Run {
     return studio_.get();
   }
 
-  Result<void> measure(const Choice& choice);
-  Result<void> timeQualities(const Choice& choice, TermCost& cost, std::vector<Spread>& ratios);
+  Result<void> measure(const QualityChoice& choice);
+  Result<void> timeQualities(const QualityChoice& choice, TermCost& cost, std::vector<Spread>& ratios);
   Result<void> measureFilter();
   Result<void> measureProbes();
   Result<void> measureScenes(SceneChoice choice);
@@ -73,7 +73,7 @@ class Run {
   double frameSeconds_ = 0;  ///< wall time of a base frame; 0: not known yet
 };
 
-Result<void> Run::timeQualities(const Choice& choice, TermCost& cost, std::vector<Spread>& ratios) {
+Result<void> Run::timeQualities(const QualityChoice& choice, TermCost& cost, std::vector<Spread>& ratios) {
   std::vector<Quality> qualities;
   for (const Setting& s : choice.settings) qualities.push_back(s.quality);
   std::vector<std::string> passes;
@@ -101,7 +101,7 @@ Result<void> Run::timeQualities(const Choice& choice, TermCost& cost, std::vecto
   return {};
 }
 
-Result<void> Run::measure(const Choice& choice) {
+Result<void> Run::measure(const QualityChoice& choice) {
   if (left() <= 0) return out_.idle.emplace_back(choice.name, "the time was up"), Result<void>{};
   if (auto told = tell(choice.name); !told) return told;
   TermCost cost;

@@ -9,7 +9,7 @@ struct Setting {
   Quality quality;
   bool inForce = false;  ///< the base quality has it
 };
-struct Choice {
+struct QualityChoice {
   std::string name, what;
   std::string calledBy;           ///< what in the scene exercises it
   std::vector<Setting> settings;  ///< cheap to exact
@@ -17,7 +17,7 @@ struct Choice {
   bool displayLight = false;      ///< pictures are of the light as a display has it (RenderRequest::displayLight)
 };
 /// Choices in this view, but for those that `only` leaves out (empty: none). `idle`: what the scene does not exercise, with the reason.
-std::vector<Choice> choicesOf(const Bench& bench, const std::vector<std::string>& only, std::vector<std::pair<std::string, std::string>>& idle);
+std::vector<QualityChoice> choicesOf(const Bench& bench, const std::vector<std::string>& only, std::vector<std::pair<std::string, std::string>>& idle);
 
 /// Nothing is asked for in `only`, or this is.
 bool asked(const std::vector<std::string>& only, std::string_view name);

@@ -10,6 +10,9 @@ namespace {
 
 using Values = std::array<double, 3>;
 
+/// A pixel whose standard error is over this share of its value and the picture's mean says nothing: one that a single bright path decides has a standard error of its own size.
+constexpr double kUncertain = 0.5;
+
 Values pixel(const Image& image, std::size_t i) {
   const float* p = image.f32() + std::size_t(image.channels) * i;
   return {p[0], p[1], p[2]};
@@ -60,7 +63,7 @@ PictureError errorOf(const Developed& picture, const Developed& other, const Ima
     }
     const double l = luminance(o), scale = l + mean;
     shares.push_back(scale > 0 ? std::abs(luminance(p) - l) / scale : 0);
-    if (noisy && luminance({std::sqrt(std::max(v[0], 0.0)), std::sqrt(std::max(v[1], 0.0)), std::sqrt(std::max(v[2], 0.0))}) > scale) ++e.uncertain;
+    if (noisy && luminance({std::sqrt(std::max(v[0], 0.0)), std::sqrt(std::max(v[1], 0.0)), std::sqrt(std::max(v[2], 0.0))}) > kUncertain * scale) ++e.uncertain;
     else sums.add(p, o, v);
   }
   if (sums.power > 0) {

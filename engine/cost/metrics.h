@@ -10,8 +10,8 @@ struct Developed {
   const Image& display;  ///< U8 RGB; empty: psnr and perceptual are 0
 };
 
-/// `variance`: of each value of `other` (F32, 3 channels), taken off the squared difference and off the other's power; nullptr or empty: none. Pixels whose standard error is over the pixel and the
-/// picture's mean together say nothing of themselves: they are left out of rms and energy and counted in PictureError::uncertain. All pictures are of one size.
+/// `variance`: of each value of `other` (F32, 3 channels), taken off the squared difference and off the other's power; nullptr or empty: none. Pixels whose standard error is over half of the
+/// pixel's value and the picture's mean together say nothing: they are left out of rms and energy and counted in PictureError::uncertain. All pictures are of one size.
 PictureError errorOf(const Developed& picture, const Developed& other, const Image* variance = nullptr);
 
 /// Butteraugli's 3-norm (libjxl) between two U8 sRGB pictures of one size; pictures under 8 pixels a side are repeated at their edges. 0 where the library fails.

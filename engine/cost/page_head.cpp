@@ -71,7 +71,7 @@ std::string colourBar(const PageInput& in) {
     const double x = kLeft + kWidth * i / 4;
     text += fmt::format("<line x1=\"{0:.1f}\" y1=\"14\" x2=\"{0:.1f}\" y2=\"18\" class=\"axis\"/><text x=\"{0:.1f}\" y=\"30\" text-anchor=\"middle\" class=\"small\">{1}</text>", x, percent(white * i * i / 16));
   }
-  return fmt::format("<div class=\"scale\"><svg class=\"plot bar-scale\" viewBox=\"0 0 352 34\" width=\"352\" height=\"34\" role=\"img\" aria-label=\"Colours of differences, from 0 to {0} of white\">{1}{2}</svg>"
+  return fmt::format("<div class=\"scale\"><svg class=\"plot bar-scale\" viewBox=\"0 0 352 34\" width=\"352\" height=\"34\" shape-rendering=\"crispEdges\" role=\"img\" aria-label=\"Colours of differences, from 0 to {0} of white\">{1}{2}</svg>"
                      "<span>difference, share of the exposure's white; square-root scale, the same in all pictures</span></div>\n",
                      percent(white), bar, text);
 }

@@ -29,7 +29,7 @@ std::string marks(const TermCost& t, const RungCost& r) {
 
 /// Columns that no rung of the term has are left out.
 struct Columns {
-  bool pass, frame, exactPass, exactRest, truth, note;
+  bool pass, frame, exactPass, exactRest, truth;
   explicit Columns(const TermCost& t) {
     const auto any = [&](const auto& is) { return std::any_of(t.rungs.begin(), t.rungs.end(), is); };
     pass = any([](const RungCost& r) { return measured(r.passMs); });
@@ -37,8 +37,8 @@ struct Columns {
     exactPass = any([](const RungCost& r) { return measured(r.exactPassMs); });
     exactRest = any([](const RungCost& r) { return measured(r.exactRest); });
     truth = any([](const RungCost& r) { return measured(r.truth); });
-    note = any([](const RungCost& r) { return !r.note.empty(); });
   }
+  [[nodiscard]] int count() const { return 6 + pass + frame + exactPass + 2 * exactRest + 3 * truth; }
 };
 
 std::string head(const Columns& c) {
@@ -54,7 +54,6 @@ std::string head(const Columns& c) {
   column(c.exactRest, "rms, rest exact"), column(c.exactRest, "energy, rest exact");
   if (c.truth) groups += "<th scope=\"colgroup\" colspan=\"3\">against ground truth</th>";
   column(c.truth, "rms"), column(c.truth, "Butter&shy;augli"), column(c.truth, "energy");
-  if (c.note) groups += "<td></td>", names += "<th scope=\"col\">note</th>";
   return "<thead>" + groups + "</tr>" + names + "</tr></thead>";
 }
 
@@ -73,8 +72,8 @@ std::string rungTable(const PageInput&, const TermCost& term) {
     cell(true, withSpread(e)), cell(true, ofError(e, number(e.psnr))), cell(true, ofError(e, number(e.perceptual))), cell(true, ofError(e, percent(e.p999))), cell(true, ofError(e, signedPercent(e.energy)));
     cell(c.exactRest, withSpread(r.exactRest)), cell(c.exactRest, ofError(r.exactRest, signedPercent(r.exactRest.energy)));
     cell(c.truth, withSpread(r.truth)), cell(c.truth, ofError(r.truth, number(r.truth.perceptual))), cell(c.truth, ofError(r.truth, signedPercent(r.truth.energy)));
-    if (c.note) out += fmt::format("<td class=\"t note\">{}</td>", escaped(r.note));
     out += "</tr>\n";
+    if (!r.note.empty()) out += fmt::format("<tr class=\"note\"><td colspan=\"{}\">{}: {}</td></tr>\n", c.count(), escaped(r.name), escaped(r.note));
   }
   return out + "</tbody></table>";
 }

@@ -71,8 +71,9 @@ thead th{color:var(--soft);font-weight:500;font-size:12px;white-space:normal;ver
 th.n{text-align:right}
 th[scope=colgroup]{text-align:center;border-bottom:1px solid var(--rule)}
 td.t{text-align:left;white-space:normal;min-width:110px;max-width:420px;overflow-wrap:anywhere}
-tbody th{max-width:300px;white-space:normal;overflow-wrap:anywhere}
-td.note{min-width:200px}
+tbody th{min-width:124px;max-width:300px;white-space:normal;overflow-wrap:anywhere}
+tr.note td{text-align:left;white-space:normal;overflow-wrap:anywhere;color:var(--soft);font-size:12.5px;padding-top:0}
+tr:has(+.note)>*{border-bottom-color:transparent}
 .rungs th,.rungs td{padding:5px 7px}
 .range{font-size:11px;color:var(--soft)}
 tr.base>*{background:var(--wash)}

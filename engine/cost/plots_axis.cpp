@@ -5,15 +5,17 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cost/page_text.h"
+#include "cost/svg.h"
 
 namespace burnish::cost {
 namespace {
 
 constexpr double kSlot = 34;        // pixels of the slot of zero
 constexpr double kDecades = 6;      // below the largest value; what is less counts as 0
+constexpr double kMost = 1e100;     // no figure of this world; counts as infinite
 constexpr double kRatio = 3;        // from here on an automatic axis is logarithmic
-constexpr double kTickSpace = 62;   // pixels that a tick's number takes, at least
+constexpr double kTickSpace = 62;   // pixels that a tick's number takes, more or less
+constexpr double kSize = 11, kGap = 8, kLine = 16;  // pixels: text, between two numbers, between two lines of text
 
 /// 1, 2 or 5 times a power of ten, so that the range has `count` ticks or a little more.
 double niceStep(double range, int count) {
@@ -45,10 +47,10 @@ Axis::Axis(std::span<const double> values, Scale scale, double from, double to, 
 void Axis::fit(std::span<const double> values, Scale scale) {
   double least = INFINITY, most = 0;
   for (const double v : values)
-    if (std::isfinite(v) && v > 0) most = std::max(most, v);
+    if (std::abs(v) < kMost && v > 0) most = std::max(most, v);
   const double floor = most * std::pow(10, -kDecades);
   for (const double v : values) {
-    if (!std::isfinite(v)) continue;
+    if (!(std::abs(v) < kMost)) continue;
     if (v > floor) least = std::min(least, v);
     else zeroSlot_ = true;
   }
@@ -62,7 +64,7 @@ void Axis::fit(std::span<const double> values, Scale scale) {
   if (logarithmic_) {
     low_ = least / 1.3, high_ = most * 1.3;
     if (high_ < low_ * 10) {  // a decade, the values in its middle
-      const double middle = std::sqrt(low_ * high_);
+      const double middle = std::sqrt(low_) * std::sqrt(high_);
       low_ = middle / std::sqrt(10.0), high_ = middle * std::sqrt(10.0);
     }
   } else if (scale == Scale::FromZero) {
@@ -82,6 +84,7 @@ double Axis::at(double value) const {
 }
 
 void Axis::mark(bool percent) {
+  const bool vertical = to_ < from_;
   const int count = std::max(2, static_cast<int>(std::abs(to_ - start_) / kTickSpace));
   if (zeroSlot_) ticks_.push_back({0, at(0), "0"});
   std::vector<double> values;
@@ -101,6 +104,13 @@ void Axis::mark(bool percent) {
     for (double i = std::ceil(low_ / step - 1e-9); i * step <= high_ * (1 + 1e-9) && values.size() < 100; ++i) values.push_back(i * step);
   }
   for (const double v : values) ticks_.push_back({v, at(v), tickText(v, percent)});
+  // A number that would touch the one before stays away; its mark does not.
+  const AxisTick* before = nullptr;
+  for (AxisTick& t : ticks_) {
+    const double need = vertical ? kLine : before ? (textWidth(t.label, kSize) + textWidth(before->label, kSize)) / 2 + kGap : 0;
+    if (before && std::abs(t.at - before->at) < need) t.label.clear();
+    else before = &t;
+  }
 }
 
 }  // namespace burnish::cost

@@ -19,7 +19,7 @@ class Axis {
     Logarithmic,  ///< at least a decade
     Automatic,    ///< logarithmic where the largest value is over three times the least, else linear around them
   };
-  /// `from`, `to`: pixels of the low and the high end, in any order. `percent`: ticks are written as percentages.
+  /// `from`, `to`: pixels of the low and the high end; an axis that runs to smaller numbers is a vertical one. `percent`: ticks are written as percentages.
   Axis(std::span<const double> values, Scale scale, double from, double to, bool percent);
 
   [[nodiscard]] double at(double value) const;  ///< inside of from and to, whatever the value

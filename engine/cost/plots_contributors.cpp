@@ -29,7 +29,7 @@ Plot contributorsPlot(const CostReport& cost) {
   svg.text(kText, 22, "share of the error", "strong", "end");
   for (const AxisTick& t : axis.ticks()) {
     svg.line(t.at, kFirst - 8, t.at, bottom + 4, "grid");
-    svg.text(t.at, bottom + 18, t.label, "small", "middle");
+    if (!t.label.empty()) svg.text(t.at, bottom + 18, t.label, "small", "middle");
   }
   for (std::size_t i = 0; i < bars.size(); ++i) {
     const auto& [name, gain] = bars[i];

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "cost/page_text.h"
 #include "cost/plots.h"
@@ -37,10 +38,26 @@ class Labels {
         return;
       }
     }
-    // No room: the title and the table have it.
+    placeAway(svg, x, y, text, style, width);
   }
 
  private:
+  /// Farther off, with a line to its point. No room at all: the title and the table have it.
+  void placeAway(Svg& svg, double x, double y, std::string_view text, std::string_view style, double width) {
+    for (const double away : {36.0, 56.0, 80.0, 110.0, 150.0})
+      for (int turn = 0; turn < 16; ++turn) {
+        const double angle = (turn * 7 % 16) * std::numbers::pi / 8, dx = std::cos(angle), dy = std::sin(angle);
+        const double cx = x + dx * (away + std::abs(dx) * width / 2), cy = y + dy * away;
+        const Box box{cx - width / 2 - 2, cy - 9, cx + width / 2 + 2, cy + 7};
+        if (box.left < kLeft || box.right > kRight || box.top < kTop || box.bottom > kBottom) continue;
+        if (std::any_of(taken_.begin(), taken_.end(), [&](const Box& b) { return b.meets(box); })) continue;
+        taken_.push_back(box);
+        svg.line(x + dx * 7, y + dy * 7, std::clamp(x + dx * away, box.left, box.right), cy + (dy < 0 ? 8 : -9) * (std::abs(dy) > 0.5), "spread");
+        svg.text(cx, cy + 4, text, style, "middle");
+        return;
+      }
+  }
+
   std::vector<Box> taken_;
 };
 
@@ -82,11 +99,11 @@ void legend(Svg& svg, const std::vector<FrontMark>& marks, bool budgets) {
 void axes(Svg& svg, const Axis& time, const Axis& error, const CostReport& cost) {
   for (const AxisTick& t : time.ticks()) {
     svg.line(t.at, kTop, t.at, kBottom, "grid");
-    svg.text(t.at, kBottom + 18, t.label, "small", "middle");
+    if (!t.label.empty()) svg.text(t.at, kBottom + 18, t.label, "small", "middle");
   }
   for (const AxisTick& t : error.ticks()) {
     svg.line(kLeft, t.at, kRight, t.at, "grid");
-    svg.text(kLeft - 8, t.at + 4, t.label, "small", "end");
+    if (!t.label.empty()) svg.text(kLeft - 8, t.at + 4, t.label, "small", "end");
   }
   svg.line(kLeft, kBottom, kRight, kBottom, "axis");
   svg.line(kLeft, kTop, kLeft, kBottom, "axis");
@@ -167,8 +184,9 @@ Plot frontPlot(const CostReport& cost, const std::vector<BudgetResult>& budgets)
       svg.endGroup();
     }
   }
-  for (const FrontMark& m : marks)
-    if (!m.label.empty()) labels.place(svg, time.at(m.point->ms.median), error.at(m.point->error.rms), fitted(m.label, 12, 200), "strong");
+  for (const Kind kind : {Kind::Base, Kind::Exact, Kind::Preset, Kind::Chosen})
+    for (const FrontMark& m : marks)
+      if (m.kind == kind && !m.label.empty()) labels.place(svg, time.at(m.point->ms.median), error.at(m.point->error.rms), fitted(m.label, 12, 200), "strong");
   if (marks.empty()) svg.text((kLeft + kRight) / 2, (kTop + kBottom) / 2, "nothing was measured", "soft", "middle");
   legend(svg, marks, lines);
   return {"front", "Time against error",

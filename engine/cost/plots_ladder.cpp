@@ -13,8 +13,11 @@ namespace {
 constexpr double kWidth = 960, kName = 14, kTimeLeft = 262, kTimeRight = 540, kTimeText = 612, kErrorLeft = 650, kErrorRight = 868, kErrorText = 946;
 constexpr double kFirst = 52, kRow = 28;
 
-/// Of the passes that the rung changes, or of the frame where those were not timed.
-const Spread& timeOf(const RungCost& rung) { return measured(rung.passMs) ? rung.passMs : rung.frameMs; }
+/// What all rungs of a plot are timed by: the passes that they change, or the frame where no rung has those.
+using Time = Spread RungCost::*;
+Time timeOf(const TermCost& term) {
+  return std::any_of(term.rungs.begin(), term.rungs.end(), [](const RungCost& r) { return measured(r.passMs); }) ? &RungCost::passMs : &RungCost::frameMs;
+}
 
 std::string tags(const TermCost& term, const RungCost& rung) {
   std::string text;
@@ -28,8 +31,7 @@ void diamond(Svg& svg, double x, double y, double r, std::string_view style) {
   svg.polyline(points, style, true);
 }
 
-void timeMark(Svg& svg, const Axis& axis, const RungCost& rung, double y) {
-  const Spread& ms = timeOf(rung);
+void timeMark(Svg& svg, const Axis& axis, const RungCost& rung, const Spread& ms, double y) {
   if (!measured(ms)) {
     svg.text(kTimeText, y + 4, "n/a", "small", "end");
     return;
@@ -43,8 +45,9 @@ void timeMark(Svg& svg, const Axis& axis, const RungCost& rung, double y) {
   }
   if (ms.count > 1 && std::isfinite(ms.low) && std::isfinite(ms.high)) {
     const double low = axis.at(ms.low), high = axis.at(ms.high);
-    svg.line(low, y, high, y, "whisker");
-    for (const double end : {low, high}) svg.line(end, y - 4, end, y + 4, "whisker");
+    if (!axis.logarithmic() || high - low > 10) svg.line(low, y, high, y, "whisker");
+    for (const double end : {low, high})
+      if (!axis.logarithmic() || high - low > 10) svg.line(end, y - 4, end, y + 4, "whisker");
   }
   svg.text(kTimeText, y + 4, number(ms.median, 4), "", "end");
 }
@@ -57,7 +60,7 @@ void errorMarks(Svg& svg, const Axis& axis, const TermCost& term, const RungCost
       svg.line(axis.at(rung.truth.rms - rung.truth.rmsSpread), y, axis.at(rung.truth.rms + rung.truth.rmsSpread), y, "spread");
     svg.rect(x - 4, y - 4, 8, 8, "dot truth");
   }
-  if (measured(rung.exactRest)) svg.circle(axis.at(rung.exactRest.rms), y, 5, "hollow");
+  if (measured(rung.exactRest) && rung.name != term.exactRung) svg.circle(axis.at(rung.exactRest.rms), y, 5, "hollow");
   if (measured(rung.exact)) {
     if (rung.name == term.exactRung) diamond(svg, axis.at(rung.exact.rms), y, 6.5, "dot best");
     else svg.circle(axis.at(rung.exact.rms), y, 5, "dot error");
@@ -81,9 +84,9 @@ void legend(Svg& svg, const TermCost& term, double y) {
   entry("against exact, the rest as in the base", [&](double sx, double sy) { svg.circle(sx, sy, 4.5, "dot error"); });
 }
 
-std::string rowLabel(const TermCost& term, const RungCost& rung) {
+std::string rowLabel(const TermCost& term, const RungCost& rung, const Spread& ms) {
   const std::string marks = tags(term, rung);
-  std::string text = fmt::format("{}{}: {} ms, error against exact {}", rung.name, marks.empty() ? "" : " (" + marks + ")", spreadText(timeOf(rung)),
+  std::string text = fmt::format("{}{}: {} ms, error against exact {}", rung.name, marks.empty() ? "" : " (" + marks + ")", spreadText(ms),
                                  measured(rung.exact) ? percent(rung.exact.rms) : "n/a");
   if (measured(rung.truth)) text += ", against ground truth " + percent(rung.truth.rms);
   return text;
@@ -92,9 +95,10 @@ std::string rowLabel(const TermCost& term, const RungCost& rung) {
 }  // namespace
 
 Plot ladderPlot(const CostReport& cost, const TermCost& term, std::string name) {
+  const Time timed = timeOf(term);
   std::vector<double> times, errors;
   for (const RungCost& r : term.rungs) {
-    if (measured(timeOf(r))) times.insert(times.end(), {timeOf(r).median, timeOf(r).high});
+    if (measured(r.*timed)) times.insert(times.end(), {(r.*timed).median, (r.*timed).high});
     for (const PictureError* e : {&r.exact, &r.exactRest, &r.truth})
       if (measured(*e)) errors.push_back(e->rms);
   }
@@ -105,25 +109,24 @@ Plot ladderPlot(const CostReport& cost, const TermCost& term, std::string name) 
   const double bottom = kFirst + kRow * static_cast<double>(std::max<std::size_t>(term.rungs.size(), 1)), height = bottom + 62;
   Svg svg(kWidth, height);
   svg.text(kName, 24, term.choice ? "setting" : "rung, cheap to exact ↓", "strong");
-  const bool frame = std::none_of(term.rungs.begin(), term.rungs.end(), [](const RungCost& r) { return measured(r.passMs); });
-  svg.text(kTimeLeft, 24, fitted(fmt::format("{}, ms of {}{}", frame ? "frame" : "its passes", cost.clock.empty() ? "time" : cost.clock, wide ? ", logarithmic" : ""), 12, kTimeText - kTimeLeft), "strong");
+  svg.text(kTimeLeft, 24, fitted(fmt::format("{}, ms of {}{}", timed == &RungCost::frameMs ? "frame" : "its passes", cost.clock.empty() ? "time" : cost.clock, wide ? ", logarithmic" : ""), 12, kTimeText - kTimeLeft), "strong");
   svg.text(kErrorLeft, 24, "error: rms, logarithmic", "strong");
   for (std::size_t i = 0; i < term.rungs.size(); ++i)
     if (term.rungs[i].inForce) svg.rect(6, kFirst + kRow * static_cast<double>(i), kWidth - 12, kRow, "band", 3);
   for (const Axis* axis : {&time, &error})
     for (const AxisTick& t : axis->ticks()) {
       svg.line(t.at, kFirst - 8, t.at, bottom + 4, "grid");
-      svg.text(t.at, bottom + 18, t.label, "small", "middle");
+      if (!t.label.empty()) svg.text(t.at, bottom + 18, t.label, "small", "middle");
     }
   for (std::size_t i = 0; i < term.rungs.size(); ++i) {
     const RungCost& rung = term.rungs[i];
     const double y = kFirst + kRow * (static_cast<double>(i) + 0.5);
-    svg.beginGroup("row", rowLabel(term, rung));
+    svg.beginGroup("row", rowLabel(term, rung, rung.*timed));
     const std::string tag = tags(term, rung);
     const double tagWidth = tag.empty() ? 0 : textWidth(tag, 11) + 8;
     svg.text(kName, y + 4, fitted(rung.name, 12, kTimeLeft - kName - 10 - tagWidth), rung.inForce ? "strong" : "");
     if (!tag.empty()) svg.text(kTimeLeft - 10, y + 4, tag, "small", "end");
-    timeMark(svg, time, rung, y);
+    timeMark(svg, time, rung, rung.*timed, y);
     errorMarks(svg, error, term, rung, y);
     svg.endGroup();
   }

@@ -71,7 +71,8 @@ void Bsdf::weigh() {
   diffuseAlbedo_ = smooth;
   if (!(sum > 0)) return;
   // A lobe of any width may be met by chance where lights are small and bright, and the cosine covers what a lobe's tails leave out.
-  lobeShare_ = std::clamp(lobeAlbedo_ / sum, lobeAlbedo_ > 0 ? 0.1f : 0.0f, m_.alpha < 0.01f && smooth <= 0 ? 0.99f : 0.95f);
+  const float share = lobeAlbedo_ / sum;
+  lobeShare_ = std::clamp(share, std::min(10 * share, 0.1f), m_.alpha < 0.01f && smooth <= 0 ? 0.99f : 0.95f);
 }
 
 vec3 Bsdf::value(const vec3& l, const f32::Angles& a) const {

@@ -46,7 +46,9 @@ void turnFrames(const scene::Placed& p, Part& part, scene::DeformedFrames frames
   for (int r = 0; r < 3; ++r)
     for (int c = 0; c < 3; ++c) part.model[c][r] = v.model[r][c];
   for (glm::vec3& n : frames.normals) n = unit({glm::dot(v.normal[0], n), glm::dot(v.normal[1], n), glm::dot(v.normal[2], n)});
-  for (glm::vec4& t : frames.tangents) t = glm::vec4(unit(part.model * glm::vec3(t)), t.w);
+  // A mirror keeps the bitangent's direction in the texture, which is what w stands for.
+  const float mirrors = glm::determinant(glm::dmat3(p.placement)) < 0 ? -1.0f : 1.0f;
+  for (glm::vec4& t : frames.tangents) t = glm::vec4(unit(part.model * glm::vec3(t)), t.w * mirrors);
   part.normals = std::move(frames.normals);
   part.tangents = std::move(frames.tangents);
   part.flipped = v.flipped;

@@ -62,7 +62,9 @@ Crossed crossPane(const SurfacePoint& point, const Bsdf& bsdf, Sampler& sampler)
   const float eta = indexOf(point), nov = bsdf.surface().nov;
   const vec3 n = bsdf.surface().n, v = bsdf.surface().v;
   Crossed out;
-  out.share = paneThrough(faceReflectance(point, nov), bsdf.through() * slabLeft(point, nov));
+  // A rough face reflects less toward grazing than a smooth one.
+  const float reflects = f32::reflectedFit(f32::f0FromIndex(eta), faceReflectance(point, nov), bsdf.surface().alpha);
+  out.share = paneThrough(reflects, bsdf.through() * slabLeft(point, nov));
   out.direction = -v;
   vec3 inside(0);
   for (int i = 0; i < 8; ++i) {

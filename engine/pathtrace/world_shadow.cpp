@@ -28,7 +28,7 @@ glm::vec3 World::Parts::crossing(const SurfacePoint& p, const glm::vec3& toRay) 
   const f32::Surface m = f32::makeSurface(p.normal, toRay, p.albedo, p.substance, p.alpha);
   glm::vec3 through;
   if (p.passage == Passage::Blend) through = (1 - p.pigment) * glm::clamp(glm::vec3(1) - reflected(m, rungs), glm::vec3(0), glm::vec3(1));
-  else if (p.passage == Passage::Body) through = m.diffuse * p.transmission * (1 - faceReflectance(p, m.nov));
+  else if (p.passage == Passage::Body && !p.open) through = m.diffuse * p.transmission * (1 - faceReflectance(p, m.nov));
   else through = paneThrough(faceReflectance(p, m.nov), m.diffuse * p.transmission);
   return through * p.coverage + (1 - p.coverage);
 }
@@ -39,13 +39,16 @@ glm::vec3 World::Parts::through(std::vector<reference::Hit>& hits, const PathRay
   SurfacePoint p;
   double entered = 0;                  // metres along the ray
   std::uint32_t inside = ~0u;          // the instance whose body the ray is in
-  for (const reference::Hit& hit : hits) {
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    const reference::Hit& hit = hits[i];
+    // Both triangles of an edge that the ray meets are one surface.
+    if (i > 0 && hit.mesh == hits[i - 1].mesh && hit.back == hits[i - 1].back && hit.distance - hits[i - 1].distance <= gap) continue;
     if (!surface(ray, hit, p)) continue;
     if (p.passage == Passage::Opaque || (turns(p.passage) && !straight)) return glm::vec3(0);
     left *= crossing(p, glm::vec3(-ray.direction));
     if (p.passage == Passage::Body) {
       // From where it was entered (or from where the ray starts) to here, where it is left.
-      if (p.open) left *= glm::exp(p.absorption * -p.thickness);
+      if (p.open) left *= slabLeft(p, std::abs(glm::dot(p.normal, glm::vec3(ray.direction))));
       else if (p.back) left *= glm::exp(p.absorption * float(-(hit.distance - (inside == p.instance ? entered : 0))));
       inside = p.back ? ~0u : p.instance;
       entered = hit.distance;

@@ -10,7 +10,7 @@ namespace {
 namespace f32 = shading::f32;
 using f32::real;
 
-/// Panes that are rougher turn light by more than a pixel of a picture 1000 pixels high (scene/transparency.cpp).
+/// Panes that are rougher turn light by more than a tenth of a pixel of a picture 1000 pixels high.
 constexpr float kClearAlpha = 0.001f;
 
 struct Frame {

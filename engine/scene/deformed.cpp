@@ -39,7 +39,7 @@ void turn(const Mesh& mesh, const Pose& pose, DeformedFrames& out) {
     const glm::dmat3 cofactor(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
     const double sign = glm::dot(m[0], cofactor[0]) < 0 ? -1 : 1;
     if (v < out.normals.size()) out.normals[v] = unitOr(glm::vec3(cofactor * glm::dvec3(out.normals[v]) * sign), out.normals[v]);
-    if (v < out.tangents.size()) out.tangents[v] = glm::vec4(unitOr(glm::vec3(m * glm::dvec3(out.tangents[v])), glm::vec3(out.tangents[v])), out.tangents[v].w);
+    if (v < out.tangents.size()) out.tangents[v] = glm::vec4(unitOr(glm::vec3(m * glm::dvec3(out.tangents[v])), glm::vec3(out.tangents[v])), out.tangents[v].w * float(sign));
   }
 }
 

@@ -13,7 +13,7 @@ std::vector<glm::dvec3> deformedPositions(const Mesh& mesh, const Pose* pose);
 /// Normals and the tangents' directions there, unit or zero; `mesh` as preparedMesh makes it. Streams that the mesh lacks stay empty.
 struct DeformedFrames {
   std::vector<glm::vec3> normals;
-  std::vector<glm::vec4> tangents;  ///< w as the mesh has it
+  std::vector<glm::vec4> tangents;  ///< w turned where the joints mirror, so that cross(n, t) · w is the bitangent
 };
 DeformedFrames deformedFrames(const Mesh& mesh, const Pose* pose);
 

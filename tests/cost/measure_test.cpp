@@ -60,6 +60,13 @@ struct Bed {
   }
 };
 
+template <class T, class Change>
+void edit(Table<T>& table, Change change) {
+  std::vector<Id<T>> ids;
+  table.each([&](Id<T> id, const T&) { ids.push_back(id); });
+  for (const Id<T> id : ids) change(*table.edit(id));
+}
+
 bool listed(const TermsToMeasure& found, std::string_view name) {
   return std::any_of(found.terms.begin(), found.terms.end(), [&](const TermToMeasure& t) { return terms()[t.term].name == name; });
 }
@@ -178,8 +185,8 @@ TEST_CASE("measure: terms that nothing calls for are left out, each with a reaso
 
 TEST_CASE("measure: what the scene brings calls for its terms") {
   Scene scene = ball();
-  scene.lights.each([](Id<Light>, Light& l) { l.castsShadow = true; });
-  scene.materials.each([](Id<Material>, Material& m) {
+  edit(scene.lights, [](Light& l) { l.castsShadow = true; });
+  edit(scene.materials, [](Material& m) {
     m.anisotropy = 0.5f, m.diffuseRoughness = 0.4f;
     m.conductorEta = vec3(0.2f), m.conductorK = vec3(3);
   });
@@ -192,7 +199,7 @@ TEST_CASE("measure: what the scene brings calls for its terms") {
   for (const TermToMeasure& t : found.terms)
     if (terms()[t.term].name == "fresnel") CHECK(terms()[t.term].rungs[t.exact].name == "conductor");
   // Lamps gone, surroundings stay.
-  bed.scene.lights.each([](Id<Light>, Light& l) { l.enabled = false; });
+  edit(bed.scene.lights, [](Light& l) { l.enabled = false; });
   const TermsToMeasure dark = bed.found();
   for (const char* name : {"normalization", "lobe", "shadow"}) {
     INFO(name);

@@ -51,7 +51,8 @@ PictureError error(double rms, double rmsSpread = 0) {
 TermCost term(const char* name, std::initializer_list<const char*> rungs, std::size_t base, double scale, double slow = 1) {
   TermCost t;
   t.name = name, t.what = fmt::format("what {} is", name), t.calledBy = "12 instances with such materials";
-  t.exactRung = *(rungs.end() - 1), t.exactPicture = picture(40, 0.5);
+  const double gloss = 30 + 20 * std::sqrt(scale) * 5;  // other pictures for each term
+  t.exactRung = *(rungs.end() - 1), t.exactPicture = picture(gloss, 0.5);
   std::size_t i = 0;
   for (const char* rung : rungs) {
     RungCost r;
@@ -61,7 +62,7 @@ TermCost term(const char* name, std::initializer_list<const char*> rungs, std::s
     const double ms = 4.1 + 0.35 * static_cast<double>(i) + (r.dominated ? 1.2 : 0), rms = last ? 0 : scale * std::pow(left, 1.7);
     r.passMs = spread(last ? ms * slow : ms), r.frameMs = spread(r.passMs.median + 9), r.exactPassMs = spread(r.passMs.median * 1.8);
     r.exact = error(rms), r.exactRest = error(rms * 0.8), r.truth = error(std::hypot(rms, 0.06), 0.002);
-    r.picture = picture(40 - 6 * left, 0.5 - 0.04 * left), r.difference = difference(40 - 6 * left, 0.5 - 0.04 * left, 40, 0.5);
+    r.picture = picture(gloss - 6 * left, 0.5 - 0.04 * left), r.difference = difference(gloss - 6 * left, 0.5 - 0.04 * left, gloss, 0.5);
     if (r.dominated) r.note = "slower than the next one, which is more exact";
     t.rungs.push_back(r);
     ++i;
