@@ -8,6 +8,8 @@
 namespace burnish::cost {
 namespace {
 
+/// Passes that look shadows up, and the one that draws their maps.
+constexpr const char* kShadowed[] = {"shadow_maps", "lighting", "forward", "transparent"};
 /// Shadow maps larger than this are left out.
 constexpr std::uint64_t kMostBytes = 512ull << 20;
 
@@ -94,6 +96,7 @@ void Rows::shadowResolution() {
     }
     setting(c, std::to_string(size), q, maps ? fmt::format("{} maps, {}", maps->layers, megabytes(maps->bytes)) : std::string());
   }
+  c.passes.assign(std::begin(kShadowed), std::end(kShadowed));
   c.exact = c.settings.size() - 1;
 }
 
@@ -111,6 +114,7 @@ void Rows::shadowCascades() {
     q.shadowCascades = cascades;
     setting(c, std::to_string(cascades), q, fmt::format("{} maps in all", layers(cascades)));
   }
+  c.passes.assign(std::begin(kShadowed), std::end(kShadowed));
   c.exact = c.settings.size() - 1;
 }
 

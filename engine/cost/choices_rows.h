@@ -14,6 +14,7 @@ struct QualityChoice {
   std::string calledBy;           ///< what in the scene exercises it
   std::vector<Setting> settings;  ///< cheap to exact
   std::size_t exact = 0;          ///< what errors count against
+  std::vector<std::string> passes;  ///< that it changes, beside those that the plans tell apart
   bool displayLight = false;      ///< pictures are of the light as a display has it (RenderRequest::displayLight)
 };
 /// Choices in this view, but for those that `only` leaves out (empty: none). `idle`: what the scene does not exercise, with the reason.
