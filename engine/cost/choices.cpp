@@ -33,8 +33,8 @@ class Run {
   explicit Run(const ChoicesRun& run) : r_(run) {}
 
   Result<Choices> all() {
-    std::vector<Choice> rows = choicesOf(r_.bench, r_.options.terms, out_.idle);
-    for (const Choice& choice : rows)
+    std::vector<QualityChoice> rows = choicesOf(r_.bench, r_.options.terms, out_.idle);
+    for (const QualityChoice& choice : rows)
       if (auto done = measure(choice); !done) return fail(done.error());
     if (auto done = measureFilter(); !done) return fail(done.error());
     if (auto done = measureProbes(); !done) return fail(done.error());
@@ -61,8 +61,10 @@ class Run {
     return studio_.get();
   }
 
-  Result<void> measure(const Choice& choice);
-  Result<void> timeQualities(const Choice& choice, TermCost& cost, std::vector<Spread>& ratios);
+  /// Once: what a base frame takes.
+  Result<void> timeBase();
+  Result<void> measure(const QualityChoice& choice);
+  Result<void> timeQualities(const QualityChoice& choice, TermCost& cost, std::vector<Spread>& ratios);
   Result<void> measureFilter();
   Result<void> measureProbes();
   Result<void> measureScenes(SceneChoice choice);
@@ -73,20 +75,25 @@ class Run {
   double frameSeconds_ = 0;  ///< wall time of a base frame; 0: not known yet
 };
 
-Result<void> Run::timeQualities(const Choice& choice, TermCost& cost, std::vector<Spread>& ratios) {
+// Two frames of each to warm up, three that count.
+Result<void> Run::timeBase() {
+  if (frameSeconds_ > 0) return {};
+  const double before = r_.clock.seconds();
+  const Quality base = r_.bench.base();
+  if (auto warm = r_.bench.time({&base, 1}, 1); !warm) return fail(warm.error());
+  frameSeconds_ = (r_.clock.seconds() - before) / 7;
+  return {};
+}
+
+Result<void> Run::timeQualities(const QualityChoice& choice, TermCost& cost, std::vector<Spread>& ratios) {
   std::vector<Quality> qualities;
   for (const Setting& s : choice.settings) qualities.push_back(s.quality);
-  std::vector<std::string> passes;
+  std::vector<std::string> passes = choice.passes;
   const FramePlan first = r_.bench.plan(qualities.front());
   for (const Quality& q : qualities)
     for (std::string& name : changedPasses(first, r_.bench.plan(q)))
       if (std::find(passes.begin(), passes.end(), name) == passes.end()) passes.push_back(std::move(name));
-  if (frameSeconds_ == 0) {
-    const double before = r_.clock.seconds();
-    const Quality base = r_.bench.base();
-    if (auto warm = r_.bench.time({&base, 1}, 1); !warm) return fail(warm.error());
-    frameSeconds_ = (r_.clock.seconds() - before) / 7;
-  }
+  if (auto known = timeBase(); !known) return known;
   const int rounds = roundsFor(qualities.size(), left() / 2);
   ratios.assign(qualities.size(), {});
   if (rounds == 0) return {};
@@ -101,7 +108,7 @@ Result<void> Run::timeQualities(const Choice& choice, TermCost& cost, std::vecto
   return {};
 }
 
-Result<void> Run::measure(const Choice& choice) {
+Result<void> Run::measure(const QualityChoice& choice) {
   if (left() <= 0) return out_.idle.emplace_back(choice.name, "the time was up"), Result<void>{};
   if (auto told = tell(choice.name); !told) return told;
   TermCost cost;
@@ -146,6 +153,7 @@ Result<void> Run::measure(const Choice& choice) {
 }
 
 Result<void> Run::measureScenes(SceneChoice choice) {
+  if (auto known = timeBase(); !known) return known;
   auto made = studio();
   if (!made) return fail(made.error());
   Studio& studio = **made;
@@ -163,7 +171,7 @@ Result<void> Run::measureScenes(SceneChoice choice) {
     auto picture = studio.picture(scene, r_.bench.base());
     if (!picture) return fail(picture.error());
     pictures.push_back(std::move(*picture));
-    const int rounds = frameSeconds_ > 0 ? roundsFor(choice.settings.size() - ratios.size(), left()) : kLeastRounds;
+    const int rounds = roundsFor(choice.settings.size() - ratios.size(), left());
     Spread ratio;
     if (rounds > 0) {
       auto timed = studio.ratio(scene, rounds, [this] { return goOn(); });
@@ -181,7 +189,10 @@ Result<void> Run::measureScenes(SceneChoice choice) {
   for (const Image& p : pictures) all.push_back(&p);
   std::vector<PictureError> whole;
   judge(r_.bench, r_.against, cost, all, choice.exact, whole);
-  markDominated(cost.rungs, ratios);
+  // Where the time that counts is the one that is taken once. Of a bake and the frames after it neither counts alone.
+  std::vector<Spread> once;
+  for (const RungCost& rung : cost.rungs) once.push_back(rung.passMs);
+  if (std::all_of(once.begin(), once.end(), [](const Spread& s) { return s.count > 0; })) markDominated(cost.rungs, once);
   out_.terms.push_back(std::move(cost));
   return {};
 }

@@ -227,6 +227,7 @@ Result<void> uploadDraws(FrameContext& c) {
     }
     d.normal[0].w = float(v.id.index + 1);
     d.normal[1].w = v.mesh->colors.empty() ? 0 : 1;
+    d.normal[2].w = v.flipped ? -1.0f : 1.0f;
     std::memcpy(bytes.data() + i * c.buffers.drawStride, &d, sizeof d);
   }
   if (!c.buffers.draws) {

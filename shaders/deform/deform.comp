@@ -69,6 +69,7 @@ void main() {
   vec3 c0 = cross(r1, r2), c1 = cross(r2, r0), c2 = cross(r0, r1);
   vec3 turned = vec3(dot(c0, normal), dot(c1, normal), dot(c2, normal));
   normal = unitOr(dot(r0, c0) < 0 ? -turned : turned, normal);
+  if (dot(r0, c0) < 0) t.w = -t.w;  // as gbuffer.vert has it for transforms that mirror
   tangent = unitOr(vec3(dot(r0, tangent), dot(r1, tangent), dot(r2, tangent)), tangent);
 #endif
   result[from] = floatBitsToUint(position.x);

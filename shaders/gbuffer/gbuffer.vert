@@ -40,7 +40,8 @@ void main() {
   gl_Position = DRAW_CLIP * p;
   // Unit length at the vertices, interpolated as they are: the frame that normal maps are baked for (Mikkelsen 2008, section 4).
   worldNormal = unit(vec3(dot(DRAW_NORMAL(0).xyz, normal.xyz), dot(DRAW_NORMAL(1).xyz, normal.xyz), dot(DRAW_NORMAL(2).xyz, normal.xyz)));
-  worldTangent = vec4(unit(vec3(dot(DRAW_MODEL(0).xyz, tangent.xyz), dot(DRAW_MODEL(1).xyz, tangent.xyz), dot(DRAW_MODEL(2).xyz, tangent.xyz))), tangent.w);
+  // The bitangent goes through the transform as it is: where that mirrors, the cross product of the other two is its opposite.
+  worldTangent = vec4(unit(vec3(dot(DRAW_MODEL(0).xyz, tangent.xyz), dot(DRAW_MODEL(1).xyz, tangent.xyz), dot(DRAW_MODEL(2).xyz, tangent.xyz))), tangent.w * DRAW_NORMAL(2).w);
   textureUv0 = uv0;
 #if GENERAL
   textureUv1 = uv1;

@@ -89,7 +89,7 @@ struct FrameData {
 struct DrawData {
   mat4 clip;         // object to clip space: one product a vertex
   vec4 model[3];    // rows: object to camera-relative world; tangents go through it
-  vec4 normal[3];   // rows of the cofactor matrix times the sign of the determinant; w of the first: instance index + 1 (exact up to 2^24), of the second: 1 when the mesh has colours
+  vec4 normal[3];   // rows of the cofactor matrix times the sign of the determinant; w of the first: instance index + 1 (exact up to 2^24), of the second: 1 when the mesh has colours, of the third: -1 where the transform mirrors, else 1
 };
 
 struct MaterialData {

@@ -45,7 +45,8 @@ TEST_CASE("choices: formats, sizes and layouts of a sunny scene, in the order of
       inForce += r.inForce;
       CHECK((r.frameMs.median > 0 && r.frameMs.low <= r.frameMs.median && r.frameMs.median <= r.frameMs.high));
       CHECK(r.passMs.median > 0);
-      CHECK((r.exact.rms == 0) == (r.name == t.exactRung));
+      // A cascade may be of distances where there is nothing to see.
+      if (t.name != "shadow-cascades") CHECK((r.exact.rms == 0) == (r.name == t.exactRung));
       CHECK(r.exact.skipped == 0);
       CHECK((r.picture.width == 96 && r.difference.channels == 1 && r.truth.rms == 0));
     }
@@ -128,7 +129,7 @@ TEST_CASE("choices: a mirror shows what a small cube of the surroundings blurs; 
   CHECK(t.rungs.back().exact.rms == 0);
   CHECK(rungNamed(t, "64 at 1e-04").passMs.median < t.rungs.back().passMs.median);
   // The light itself is the same: the surroundings' mean on the ball.
-  for (const RungCost& r : t.rungs) CHECK(std::abs(r.exact.energy) < 0.03);
+  for (const RungCost& r : t.rungs) CHECK((std::abs(r.exact.energy) < 0.03 && r.frameMs.median > 0));
 }
 
 TEST_CASE("choices: probes of a room that is found, by number and by bounces", "[choices]") {
@@ -156,4 +157,5 @@ TEST_CASE("choices: probes of a room that is found, by number and by bounces", "
   CHECK(two < 0);
   CHECK(rungNamed(t, "none").exact.rms > rungNamed(t, "1 of 1, 2 bounces").exact.rms);
   CHECK(rungNamed(t, "1 of 1, 1 bounce").passMs.median > 0);
+  for (const RungCost& r : t.rungs) CHECK((r.frameMs.median > 0 && !r.dominated));
 }
