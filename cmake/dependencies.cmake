@@ -9,6 +9,11 @@ find_package(glfw3 REQUIRED)
 find_package(Threads REQUIRED)
 find_package(HWY REQUIRED CONFIG)
 find_package(embree 3.13 REQUIRED)
+# libjxl has no CMake package here.
+find_path(JXL_INCLUDE_DIR jxl/butteraugli.h REQUIRED)
+find_library(JXL_LIBRARY jxl REQUIRED)
+add_library(JXL::JXL UNKNOWN IMPORTED)
+set_target_properties(JXL::JXL PROPERTIES IMPORTED_LOCATION ${JXL_LIBRARY} INTERFACE_INCLUDE_DIRECTORIES ${JXL_INCLUDE_DIR})
 if(BURNISH_BUILD_TOOLS)
   find_path(IMGUI_INCLUDE_DIR imgui.h PATH_SUFFIXES imgui REQUIRED)  # with its GLFW and OpenGL backends
   find_library(IMGUI_LIBRARY imgui REQUIRED)

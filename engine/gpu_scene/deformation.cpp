@@ -7,6 +7,7 @@
 
 #include "gpu_scene/frame.h"
 #include "plan/variants.h"
+#include "scene/tangents.h"
 
 namespace burnish::gpu_scene {
 namespace {
@@ -116,7 +117,7 @@ const DeformSource* Deformation::sourceOf(FrameContext& c, const scene::VisibleI
   source = std::make_unique<DeformSource>();
   source->mesh = mesh.serial;
   Report known;  // the mesh was validated when its vertices were uploaded
-  const Result<Mesh> valid = preparedMesh(*v.mesh, mesh.madeTangents, known);
+  const Result<Mesh> valid = scene::preparedMesh(*v.mesh, mesh.madeTangents, known);
   if (const Result<void> filled = valid ? fill(c.device, *valid, *source) : fail(valid.error()); filled)
     source->good = true;
   else

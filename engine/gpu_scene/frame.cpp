@@ -121,12 +121,16 @@ Result<GLuint> FrameContext::lightFramebuffer(bool depth) const {
   return depth ? targets.framebuffer({"light"}, "depth") : targets.framebuffer({"light"});
 }
 
-void FrameContext::setViewport() const {
-  const glm::ivec4 v = view.viewport;
+namespace {
+void setRectangle(const gl::Device& device, glm::ivec4 v) {
   device.gl.Viewport(v.x, v.y, v.z, v.w);
   device.gl.Enable(GL_SCISSOR_TEST);
   device.gl.Scissor(v.x, v.y, v.z, v.w);
 }
+}  // namespace
+
+void FrameContext::setViewport() const { setRectangle(device, view.viewport); }
+void FrameContext::setTargetViewport() const { setRectangle(device, view.target); }
 
 Result<void> FrameContext::drawScreen(std::string_view name) const {
   const gl::Program* program = programs.find(name);
@@ -171,12 +175,16 @@ void fillSun(FrameData& d, const FrameContext& c) {
 
 }  // namespace
 
+namespace {
+/// What the light buffer holds at most, with room for rounding: half floats end at 65504, the blue of R11F_G11F_B10F at 64512.
+float largestLight(const TargetPlan* light) { return !light || light->format == "RGBA16F" ? 65000.0f : light->format == "RGBA32F" ? 3e38f : 64000.0f; }
+}  // namespace
+
 Result<void> uploadFrameData(FrameContext& c, float displayExposure) {
   FrameData d{};
   d.viewProjection = glm::mat4(c.view.viewProjection);
   fillRays(d, c.view);
-  const bool wide = c.plan.target("light") && c.plan.target("light")->format == "RGBA32F";
-  d.exposure = vec4(c.preExposure, 1 / c.preExposure, displayExposure / c.preExposure, wide ? 3e38f : 65000.0f);
+  d.exposure = vec4(c.preExposure, 1 / c.preExposure, displayExposure / c.preExposure, largestLight(c.plan.target("light")));
   d.eye = vec4(glm::vec3(c.view.eye), 0);
   const Environment& e = c.scene.environment;
   const float scale = std::isfinite(e.scale) ? std::max(e.scale, 0.0f) * c.preExposure : 0;
@@ -194,6 +202,7 @@ Result<void> uploadFrameData(FrameContext& c, float displayExposure) {
   d.environment.z = std::isfinite(c.quality.occlusionRadius) ? std::clamp(c.quality.occlusionRadius, 1e-3f, 1e3f) : 1.0f;
   d.environment.w = float(c.view.viewport.w) / 6;
   d.viewport = c.view.viewport;
+  d.target = c.view.target;
   for (std::size_t i = 0; i < c.lights.directional.size(); ++i) {
     d.directional[2 * i] = vec4(c.lights.directional[i].toLight, 0);
     d.directional[2 * i + 1] = vec4(c.lights.directional[i].illuminance * c.preExposure, 0);

@@ -126,6 +126,8 @@ struct FrameContext {
   Result<GLuint> lightFramebuffer(bool depth) const;
   /// Viewport and scissor at the view's rectangle.
   void setViewport() const;
+  /// The same on the target.
+  void setTargetViewport() const;
   /// A full-screen triangle with the named program into the bound framebuffer.
   Result<void> drawScreen(std::string_view program) const;
 };

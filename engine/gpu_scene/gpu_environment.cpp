@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "gpu_scene/gpu_scene.h"
@@ -32,6 +33,9 @@ Image mended(const Environment& environment, Report& report) {
   if (bad) report.warn("environment", fmt::format("{} values were not finite, negative or over {}: they were mended", bad, kLimit));
   return out;
 }
+
+int filterSize(const Environment& e) { return int(std::bit_floor(unsigned(std::clamp(e.filterSize, 16, 1024)))); }
+double filterError(const Environment& e) { return std::isfinite(e.filterError) ? std::clamp(e.filterError, 1e-7, 0.1) : Environment{}.filterError; }
 
 Result<gl::Texture> uploadCube(gl::Device& device, const prefilter::EnvironmentLight& light) {
   auto cube = gl::Texture::create(device, {.target = GL_TEXTURE_CUBE_MAP, .format = GL_RGBA16F, .width = light.levels[0].size, .height = light.levels[0].size, .levels = int(light.levels.size())},
@@ -66,13 +70,13 @@ Result<const GpuEnvironment*> GpuScene::environment(const Scene& scene, Environm
   const Environment& e = scene.environment;
   // Colour and size take part, so that a change without a new revision is seen in the common cases.
   const std::uint64_t revision = e.revision * 1000003u + std::uint64_t(e.map.width) * 31u + std::uint64_t(e.map.height) + std::hash<float>{}(e.color.r) * 7u + std::hash<float>{}(e.color.g) * 11u +
-                                 std::hash<float>{}(e.color.b) * 13u + 1;
+                                 std::hash<float>{}(e.color.b) * 13u + std::uint64_t(e.filterSize) * 17u + std::hash<double>{}(e.filterError) * 19u + 1;
   const bool current = environment_ && environmentRevision_ == revision;
   if (current && (!wants.cube || environment_->cube) && (!wants.picture || environment_->sky)) return environment_.get();
   if (!e.map.empty() && (e.map.type != PixelType::F32 || e.map.channels < 3 || e.map.data.size() != e.map.byteSize()))
     return fail("environment", "the map is not a float picture with 3 or 4 channels", "load it with loadEnvironment");
   const Image picture = mended(e, report);
-  auto filtered = prefilter::prefilterEnvironment(picture, e.map.empty() ? 16 : 256);
+  auto filtered = prefilter::prefilterEnvironment(picture, e.map.empty() ? 16 : filterSize(e), filterError(e));
   if (!filtered) return fail(filtered.error());
   const prefilter::EnvironmentLight& light = *filtered;
   auto made = std::make_unique<GpuEnvironment>();

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "gpu_scene/gpu_scene.h"
+#include "scene/tangents.h"
 
 namespace burnish::gpu_scene {
 namespace {
@@ -80,12 +81,6 @@ Result<std::unique_ptr<GpuMesh>> uploadMesh(gl::Device& device, const Mesh& mesh
 
 }  // namespace
 
-Result<Mesh> preparedMesh(const Mesh& mesh, bool tangents, Report& report) {
-  Result<Mesh> valid = validated(mesh, report);
-  if (valid && tangents && valid->tangents.empty() && !valid->uv0.empty()) makeTangents(*valid);
-  return valid;
-}
-
 const GpuMesh* GpuScene::mesh(const Scene& scene, Id<Mesh> id, bool tangents, Report& report) {
   const Mesh* m = scene.meshes.get(id);
   if (!m) return nullptr;
@@ -94,7 +89,7 @@ const GpuMesh* GpuScene::mesh(const Scene& scene, Id<Mesh> id, bool tangents, Re
   if (row.revision == scene.meshes.revision(id) && !lacking) return row.mesh.get();
   if (!admit(m->positions.size() * (GpuMesh::kStride + (m->uv1.empty() && m->colors.empty() ? 0 : GpuMesh::kExtraStride)) + m->indices.size() * 4)) return nullptr;
   row = {scene.meshes.revision(id), id.generation, nullptr};
-  Result<Mesh> valid = preparedMesh(*m, tangents, report);
+  Result<Mesh> valid = scene::preparedMesh(*m, tangents, report);
   if (!valid) {
     report.warn(valid.error().place, valid.error().what + ": it is not drawn");
     return nullptr;

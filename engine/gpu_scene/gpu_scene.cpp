@@ -2,13 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <cstring>
 
-#include "image/resample.h"
-#include "material/mips.h"
 #include "plan/variants.h"
+#include "scene/material_factors.h"
+#include "scene/texture_levels.h"
 
 namespace burnish::gpu_scene {
 namespace {
@@ -28,48 +26,21 @@ KindFormat formatOf(MapKind kind, int channels) {
   return {GL_RGBA8, 4};
 }
 
-// RGB to RGBA and the like; missing channels are opaque.
-Image withChannels(const Image& in, int channels) {
-  if (in.channels == channels) return in;
-  Image out = makeImage(in.width, in.height, channels, PixelType::U8);
-  const std::uint8_t* from = in.u8();
-  std::uint8_t* to = out.u8();
-  for (std::size_t i = 0; i < in.pixelCount(); ++i)
-    for (int c = 0; c < channels; ++c) to[i * std::size_t(channels) + std::size_t(c)] = c < in.channels ? from[i * std::size_t(in.channels) + std::size_t(c)] : 255;
-  return out;
-}
-
-float finiteOr(float value, float low, float high, float otherwise) { return std::isfinite(value) ? std::clamp(value, low, high) : otherwise; }
-
-vec4 uvRow(const UvMapping& uv, int row) {
-  const glm::mat3x2& t = uv.transform;
-  const auto fin = [](float f) { return std::isfinite(f) ? f : 0.0f; };
-  return {fin(t[0][row]), fin(t[1][row]), fin(t[2][row]), float(uv.set == 1)};
-}
+vec4 uvRow(const UvMapping& uv, int row) { return {uv.transform[0][row], uv.transform[1][row], uv.transform[2][row], float(uv.set == 1)}; }
 
 MaterialData dataOf(const Material& m) {
+  const scene::MaterialFactors f = scene::factorsOf(m);
   MaterialData d{};
-  const auto unit = [](float f, float otherwise) { return finiteOr(f, 0, 1, otherwise); };
-  d.albedo = {unit(m.albedo.r, 0.5f), unit(m.albedo.g, 0.5f), unit(m.albedo.b, 0.5f), unit(m.opacity, 1)};
-  // A material without a map A takes the code from its factor: the default map's alpha counts for nothing.
-  d.params = {m.mapA ? 1.0f : 0.0f, m.mapA ? 0.0f : unit(m.substance, 1.0f / 3), unit(m.roughness, 1), unit(m.occlusionStrength, 1)};
-  d.emission = {finiteOr(m.emission.r, 0, 1e9f, 0), finiteOr(m.emission.g, 0, 1e9f, 0), finiteOr(m.emission.b, 0, 1e9f, 0), unit(m.alphaCutoff, 0.5f)};
-  d.more = {unit(m.metalness, 0), m.unlit ? 1.0f : 0.0f, m.useVertexColor ? 1.0f : 0.0f, m.metalRoughMap ? (m.mapB ? 1.0f : 2.0f) : 0.0f};
-  const UvMapping* maps[] = {&m.uvA, &m.uvB, &m.uvC, &m.uvMetalRough, &m.uvEmissive};
+  d.albedo = vec4(f.albedo, f.opacity);
+  d.params = {f.codeScale, f.codeBias, f.roughness, f.occlusionStrength};
+  d.emission = vec4(f.emission, f.alphaCutoff);
+  d.more = {f.metalness, f.unlit ? 1.0f : 0.0f, f.vertexColor ? 1.0f : 0.0f, f.metalRoughMap ? (f.mapB ? 1.0f : 2.0f) : 0.0f};
   for (int i = 0; i < 5; ++i)
-    for (int row = 0; row < 2; ++row) d.uv[2 * i + row] = uvRow(*maps[i], row);
-  for (int i = 0; i < 3; ++i) {
-    d.conductorEta[i] = finiteOr(m.conductorEta[i], 0, 1e4f, 0);
-    d.conductorK[i] = finiteOr(m.conductorK[i], 0, 1e4f, 0);
-  }
-  const float strength = unit(m.anisotropy, 0), rotation = std::isfinite(m.anisotropyRotation) ? m.anisotropyRotation : 0;
-  d.conductorEta.w = strength * strength * std::cos(rotation);
-  d.conductorK.w = strength * strength * std::sin(rotation);
-  d.glass = {unit(m.transmission, 0), finiteOr(m.thickness, 0, 1e9f, 0), m.ior >= 1 ? finiteOr(m.ior, 1, 100, 1.5f) : 0.0f, m.blend ? 1.0f : 0.0f};
-  d.attenuation.w = unit(m.diffuseRoughness, 0);
-  // Beer-Lambert: color = exp(-absorption · distance). A channel of no light at all stands for a millionth.
-  if (m.attenuationDistance > 0 && std::isfinite(m.attenuationDistance))
-    for (int i = 0; i < 3; ++i) d.attenuation[i] = std::min(-std::log(finiteOr(m.attenuationColor[i], 1e-6f, 1, 1)) / m.attenuationDistance, 1e9f);
+    for (int row = 0; row < 2; ++row) d.uv[2 * i + row] = uvRow(f.uv[i], row);
+  d.conductorEta = vec4(f.eta, f.brushed.x);
+  d.conductorK = vec4(f.k, f.brushed.y);
+  d.glass = {f.transmission, f.thickness, f.ior, f.blend ? 1.0f : 0.0f};
+  d.attenuation = vec4(f.absorption, f.sigma);
   return d;
 }
 
@@ -111,13 +82,12 @@ void GpuScene::sweep(const Scene& scene) {
 }
 
 Result<void> GpuScene::makeDefaults() {
-  const std::uint8_t texels[5][4] = {{255, 255, 255, 85}, {128, 128, 255, 255}, {255, 255, 0, 0}, {255, 255, 255, 255}, {255, 255, 255, 255}};
   const GLenum formats[5] = {GL_SRGB8_ALPHA8, GL_RGBA8, GL_RG8, GL_RGBA8, GL_SRGB8_ALPHA8};
   const char* names[5] = {"default map A", "default map B", "default map C", "default metal-rough", "default emissive"};
   for (std::size_t i = 0; i < 5; ++i) {
     auto t = gl::Texture::create(device_, {.format = formats[i]}, names[i]);
     if (!t) return fail(t.error());
-    t->upload(0, texels[i]);
+    t->upload(0, scene::kDefaultTexels[i]);
     defaults_[i] = std::move(*t);
     defaultMaterial_.texture[i] = defaults_[i].id();
     defaultMaterial_.sampler[i] = sampler({});
@@ -207,42 +177,12 @@ const GpuScene::TextureRow* GpuScene::packedTexture(const Scene& scene, Id<Textu
   return &row;
 }
 
-namespace {
-
-Result<void> checkImage(const Texture& t) {
-  if (t.image.empty() || t.image.type != PixelType::U8 || t.image.data.size() != t.image.byteSize() || t.image.channels < 1 || t.image.channels > 4)
-    return fail(fmt::format("texture '{}'", t.name), "is empty, not 8 bit, or shorter than its size says", "give it an Image as makeImage makes it");
-  return {};
-}
-
-std::vector<Image> levelsOf(const Texture& t, int channels) {
-  if (t.sampler.mips) return material::buildMips(t.kind, withChannels(t.image, channels));
-  std::vector<Image> one;
-  one.push_back(withChannels(t.image, channels));
-  return one;
-}
-
-// Writes the occlusion's chain into the third channel of the normals'.
-void packOcclusion(std::vector<Image>& levels, const Texture& occlusion) {
-  Texture c = occlusion;
-  c.image = withChannels(c.image, 1);
-  c.sampler.mips = levels.size() > 1;
-  if (c.image.width != levels[0].width || c.image.height != levels[0].height) c.image = image::resampleArea(c.image, levels[0].width, levels[0].height);
-  const std::vector<Image> from = levelsOf(c, 1);
-  for (std::size_t k = 0; k < levels.size() && k < from.size(); ++k)
-    for (std::size_t i = 0; i < levels[k].pixelCount(); ++i) levels[k].u8()[i * 4 + 2] = from[k].u8()[i];
-}
-
-}  // namespace
-
 // `occlusion`: a map C to pack into map B, or nullptr.
 Result<gl::Texture> GpuScene::uploadTexture(const Texture& t, const Texture* occlusion) {
-  if (auto good = checkImage(t); !good) return fail(good.error());
-  if (occlusion)
-    if (auto good = checkImage(*occlusion); !good) return fail(good.error());
+  auto made = scene::levelsOf(t, occlusion);
+  if (!made) return fail(made.error());
+  const std::vector<Image>& levels = *made;
   const KindFormat f = formatOf(t.kind, t.image.channels);
-  std::vector<Image> levels = levelsOf(t, f.channels);
-  if (occlusion) packOcclusion(levels, *occlusion);
   auto texture = gl::Texture::create(device_, {.format = f.format, .width = t.image.width, .height = t.image.height, .levels = int(levels.size())}, t.name);
   if (!texture) return texture;
   for (std::size_t k = 0; k < levels.size(); ++k) texture->upload(int(k), levels[k].data.data());

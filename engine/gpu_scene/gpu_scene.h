@@ -23,14 +23,11 @@ struct GpuMesh {
   GLenum indexType = GL_UNSIGNED_SHORT;
   std::vector<MeshPart> parts;  ///< of its vertices as they are; empty: it is small
   bool tangents = false;
-  bool madeTangents = false;    ///< preparedMesh was asked for them
+  bool madeTangents = false;    ///< scene::preparedMesh was asked for them
   int vertexCount = 0;
   std::uint64_t serial = 0;     ///< tells uploads apart
   static constexpr int kStride = 36, kExtraStride = 16;
 };
-
-/// The mesh as it is uploaded: validated, with tangents where they are asked for and can be made (which may split vertices).
-Result<Mesh> preparedMesh(const Mesh& mesh, bool tangents, Report& report);
 
 /// A map B of a material that packs occlusion (plan::packsOcclusion) holds normal x, normal y, occlusion, roughness.
 /// What an instance is drawn with; textures that have not arrived are their 1x1 defaults.

@@ -53,8 +53,10 @@ Result<void> LightingPass::readTileDepths(FrameContext& c) {
 void LightingPass::readTileSurfaces(FrameContext& c) {
   const glm::ivec4 v = c.view.viewport;
   normals_.resize(depth_.size());
-  c.device.gl.GetTextureSubImage(c.targets.texture("gbuffer_b")->id(), 0, v.x, v.y, 0, v.z, v.w, 1, GL_RGBA, GL_UNSIGNED_BYTE, GLsizei(normals_.size() * sizeof(std::uint32_t)), normals_.data());
-  surfaces_.begin(c.view, depth_, normals_);
+  // Four bytes a pixel: the whole of RGBA8, or the first two channels of RGBA16.
+  const bool wide = c.quality.normalStorage == NormalStorage::Oct16;
+  c.device.gl.GetTextureSubImage(c.targets.texture("gbuffer_b")->id(), 0, v.x, v.y, 0, v.z, v.w, 1, wide ? GL_RG : GL_RGBA, wide ? GL_UNSIGNED_SHORT : GL_UNSIGNED_BYTE, GLsizei(normals_.size() * sizeof(std::uint32_t)), normals_.data());
+  surfaces_.begin(c.view, depth_, normals_, c.quality.normalStorage);
 }
 
 Result<void> LightingPass::uploadLights(FrameContext& c) {

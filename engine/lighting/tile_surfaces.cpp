@@ -18,13 +18,29 @@ namespace {
 constexpr int kRows = 4;
 constexpr float kNowhere = 1e18f;  // metres: where pixels without a surface are
 
+/// Where the two codes of a stored normal are in its 32 bits (shading/normals.h): low bits at 0 and at `shift`, high ones in the third byte; codes run 0 to 2 middle.
+struct NormalCodes {
+  std::uint32_t low, high;
+  int shift;
+  float scale;  // 1/middle
+};
+NormalCodes codesOf(NormalStorage storage) {
+  switch (storage) {
+    case NormalStorage::Oct8: return {0xff, 0, 8, 1 / 127.0f};
+    case NormalStorage::Oct12: break;
+    case NormalStorage::Oct16: return {0xffff, 0, 16, 1 / 32767.0f};
+  }
+  return {0xff, 0xf00, 8, 1 / 2047.0f};
+}
+
 }  // namespace
 
-void TileSurfaces::begin(const scene::ViewFrame& view, std::span<const float> depth, std::span<const std::uint32_t> normals) {
+void TileSurfaces::begin(const scene::ViewFrame& view, std::span<const float> depth, std::span<const std::uint32_t> normals, NormalStorage storage) {
   static_assert(TILE_SIZE * TILE_SIZE == kPixels);
   view_ = view;
   depth_ = depth;
   normals_ = normals;
+  storage_ = storage;
 }
 
 WIDE void TileSurfaces::load(int tx, int ty) {
@@ -32,6 +48,7 @@ WIDE void TileSurfaces::load(int tx, int ty) {
   const int width = v.viewport.z, height = v.viewport.w, left = tx * TILE_SIZE, w = std::min(TILE_SIZE, width - left);
   rows_ = std::min(TILE_SIZE, height - ty * TILE_SIZE);
   const glm::vec3 right(v.axes[0] * (2 * v.tanX / width)), forward(-v.axes[2]);
+  const NormalCodes codes = codesOf(storage_);
   const float a = float(v.depthParams.x), b = float(v.depthParams.y);
   for (int row = 0; row < rows_; ++row) {
     const int y = ty * TILE_SIZE + row;
@@ -56,9 +73,9 @@ WIDE void TileSurfaces::load(int tx, int ty) {
       z[i] = (ray.z + right.z * k) * along[i] + forward.z * offset[i];
     }
     for (int i = 0; i < w; ++i) {
-      // shading/normals.h: unpackNormal, before it is normalized.
-      const std::int32_t n = std::int32_t(normals[i] & 0xffffffu);
-      const float u = float((n & 255) | (n >> 12 & 0xf00)) * (1 / 2047.0f) - 1, t = float((n >> 8 & 255) | (n >> 8 & 0xf00)) * (1 / 2047.0f) - 1;
+      // shading/normals.h: as it is unpacked, before it is normalized.
+      const std::uint32_t n = normals[i];
+      const float u = float(std::int32_t((n & codes.low) | (n >> 12 & codes.high))) * codes.scale - 1, t = float(std::int32_t((n >> codes.shift & codes.low) | (n >> 8 & codes.high))) * codes.scale - 1;
       const float up = 1 - std::abs(u) - std::abs(t), fold = up < 0 ? -up : 0.0f;
       nx[i] = u - std::copysign(fold, u);
       ny[i] = t - std::copysign(fold, t);

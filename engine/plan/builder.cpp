@@ -22,6 +22,7 @@ void addOnce(std::vector<T>& list, const T& item) {
 std::span<const Step> steps() { return kSteps; }
 
 std::string define(std::string_view name, int value) { return fmt::format("{} {}", name, value); }
+std::string defineNormals(const Quality& quality) { return define("NORMAL_STORAGE", int(quality.normalStorage)); }
 
 std::vector<std::string> Builder::thoseOn(std::initializer_list<std::string_view> effects) const {
   std::vector<std::string> result;
@@ -54,7 +55,7 @@ void Builder::target(std::string_view name, std::string_view format, std::initia
   TargetPlan& t = known ? *found : plan_.targets.emplace_back();
   for (const std::string& e : thoseOn(effects)) addOnce(t.effects, e);
   if (known) return;
-  if (size == glm::ivec2(0)) size = s.options.size;
+  if (size == glm::ivec2(0)) size = s.shaded;
   t.name = name;
   t.format = format;
   t.width = size.x;

@@ -15,7 +15,7 @@ class Builder {
   void use(PassPlan& pass, const ProgramPlan& program);
   /// A program of post/screen.vert's triangle.
   void useScreen(PassPlan& pass, std::string name, std::string fragment, std::vector<std::string> defines);
-  /// A target of the frame's size, or of one given. A second call with the same name adds its effects to the first's.
+  /// A target of the size at which pixels are shaded, or of one given. A second call with the same name adds its effects to the first's.
   void target(std::string_view name, std::string_view format, std::initializer_list<std::string_view> effects, glm::ivec2 size = {0, 0}, int levels = 1, int layers = 0);
   /// The plan, with every effect's passes, programs, targets and bytes filled in.
   FramePlan finish();
@@ -63,5 +63,7 @@ void readSurroundings(const Situation& s, PassPlan& pass);
 
 /// "NAME value", as shaders take it.
 std::string define(std::string_view name, int value);
+/// For programs that write or read the G-buffer's normals (interface/stored_normal.glsl).
+std::string defineNormals(const Quality& quality);
 
 }  // namespace burnish::plan

@@ -26,6 +26,8 @@ Quality captureQuality(const Quality& quality) {
   q.antialiasing = Antialiasing::None;
   q.specularAntialiasing = SpecularAntialiasing::None;
   q.bloom = Bloom::None;
+  q.lightBuffer = Quality{}.lightBuffer;
+  q.resolutionScale = 1;
   q.toneMap = ToneMap::None;
   // What the screen hides depends on where the eye is: light that probes bring has its shadows already.
   if (q.occlusion > Occlusion::Baked) q.occlusion = Occlusion::Baked;

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "plan/rungs.h"
+#include "plan/scaling.h"
 #include "plan/temporal.h"
 
 namespace burnish::plan {
@@ -149,6 +150,13 @@ Verdict temporalAntialiasing(const Situation& s) {
 Verdict motionVectors(const Situation& s) {
   return provided(sceneCalls(s, Call::Moving, "an instance that moved since the frame before would call for it"), s.on("temporal_antialiasing"), "antialiasing=temporal would call for it where something moves");
 }
+Verdict upscaling(const Situation& s) {
+  if (scaleOf(s.quality) >= 1) return {false, "resolutionScale below 1 would call for it"};
+  if (s.options.debugView != DebugView::Final) return {false, "the debug view shows pixels as they are"};
+  if (s.options.hostDepthIn) return {false, "the target brings depth, which has its size"};
+  if (s.shaded == s.options.size) return {false, "the target has no pixel to spare"};
+  return {true, fmt::format("{} x {} pixels for {} x {}", s.shaded.x, s.shaded.y, s.options.size.x, s.options.size.y)};
+}
 Verdict linearOutput(const Situation& s) {
   const bool on = s.options.output == Output::Linear && s.options.debugView == DebugView::Final;
   return {on, on ? "radiance is asked for" : "a request for linear output would call for it"};
@@ -191,6 +199,7 @@ constexpr EffectRow kRows[] = {
     {{"edge_antialiasing", CalledBy::Setting, "edges smoothed in the developed picture"}, edgeAntialiasing},
     {{"temporal_antialiasing", CalledBy::Setting, "samples of each pixel averaged over frames"}, temporalAntialiasing},
     {{"motion_vectors", CalledBy::Scene, "where what moves was in the frame before"}, motionVectors, false},
+    {{"upscaling", CalledBy::Setting, "pixels shaded at a smaller size and enlarged"}, upscaling},
     {{"linear_output", CalledBy::Setting, "radiance in cd/m2, not developed"}, linearOutput},
     {{"debug_view", CalledBy::Setting, "a buffer in place of the picture"}, debugView},
     {{"host_depth_in", CalledBy::Setting, "the host's depth occludes the scene"}, hostDepthIn},

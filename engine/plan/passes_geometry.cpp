@@ -38,7 +38,7 @@ void addGBuffer(Builder& b) {
   PassPlan& pass = b.pass("gbuffer", {"geometry", "host_depth_in", "two_sided", "alpha_test", "baked_occlusion", "anisotropy", "rough_diffuse"},
                           s.on("geometry") ? std::vector<std::string>{"meshes", "materials"} : std::vector<std::string>{}, {"gbuffer_a", "gbuffer_b"});
   b.target("gbuffer_a", "RGBA8", {"geometry", "host_depth_in"});
-  b.target("gbuffer_b", "RGBA8", {"geometry", "host_depth_in"});
+  b.target("gbuffer_b", s.quality.normalStorage == NormalStorage::Oct16 ? "RGBA16" : "RGBA8", {"geometry", "host_depth_in"});
   if (occlusion) {
     b.target("gbuffer_c", "R8", {"baked_occlusion"});
     pass.writes.push_back("gbuffer_c");
@@ -49,7 +49,12 @@ void addGBuffer(Builder& b) {
   }
   pass.writes.push_back("depth");
   if (!s.on("geometry")) return;
-  for (const GeometryVariant& v : s.facts.variants) b.use(pass, geometryProgram(GeometryPass::GBuffer, v, occlusion, s.quality.specularAntialiasing));
+  for (const GeometryVariant& v : s.facts.variants) {
+    ProgramPlan program = geometryProgram(GeometryPass::GBuffer, v, occlusion, s.quality.specularAntialiasing);
+    program.defines.push_back(defineNormals(s.quality));
+    std::sort(program.defines.begin(), program.defines.end());
+    b.use(pass, program);
+  }
 }
 
 // One pass in place of G-buffer, tiles and lighting.

@@ -21,8 +21,7 @@ void readSurroundings(const Situation& s, PassPlan& pass) {
 
 void addTiles(Builder& b) {
   const Situation& s = b.s;
-  // Linear output keeps radiance in floats; a picture for a display is pre-exposed, so that half floats suffice.
-  if (s.final() && !s.developsInPlace()) b.target("light", s.options.output == Output::Linear ? "RGBA32F" : "RGBA16F", kLightOwners);
+  if (s.final() && !s.developsInPlace()) b.target("light", s.lightFormat(), kLightOwners);
   if (!s.hasTiles()) return;
   PassPlan& pass = b.pass("tiles", {"directional_lights", "local_lights", "environment_lighting", "reflection_probes", "ambient_grid", "screen_occlusion", "debug_view"}, {"depth"}, {"light lists"});
   if (s.on("local_lights")) pass.writes.emplace_back("lights");
@@ -30,7 +29,7 @@ void addTiles(Builder& b) {
     if (s.on("local_lights")) pass.reads.emplace_back("gbuffer_b");  // normals, to leave out lights from behind
     return;
   }
-  b.target("tile_depth", "RGBA32F", {"directional_lights", "local_lights", "environment_lighting", "reflection_probes", "ambient_grid", "screen_occlusion", "debug_view"}, (s.options.size + 15) / 16);
+  b.target("tile_depth", "RGBA32F", {"directional_lights", "local_lights", "environment_lighting", "reflection_probes", "ambient_grid", "screen_occlusion", "debug_view"}, (s.shaded + 15) / 16);
   pass.writes.push_back("tile_depth");
   for (bool o : s.projections()) b.useScreen(pass, o ? "tile_depth+ortho" : "tile_depth", "lighting/tile_depth.frag", {define("ORTHOGRAPHIC", o)});
 }
@@ -45,7 +44,7 @@ void addOcclusion(Builder& b) {
   b.target("occlusion", "R8", {"screen_occlusion"});
   PassPlan& search = b.pass("occlusion", {"screen_occlusion"}, {"gbuffer_b", "depth", "light lists"}, {"occlusion_raw"});
   for (bool o : s.projections())
-    b.use(search, {o ? "occlusion+ortho" : "occlusion", "lighting/screen_tile.vert", "lighting/occlusion.frag", {define("ORTHOGRAPHIC", o), define("SLICES", samples.slices), define("STEPS", samples.steps)}});
+    b.use(search, {o ? "occlusion+ortho" : "occlusion", "lighting/screen_tile.vert", "lighting/occlusion.frag", {defineNormals(s.quality), define("ORTHOGRAPHIC", o), define("SLICES", samples.slices), define("STEPS", samples.steps)}});
   PassPlan& denoise = b.pass("occlusion_denoise", {"screen_occlusion"}, {"occlusion_raw", "depth", "light lists"}, {"occlusion"});
   if (baked) denoise.reads.push_back("gbuffer_c");
   for (bool o : s.projections())

@@ -55,7 +55,7 @@ void addNonfiniteCount(Builder& b) {
 void addBloom(Builder& b) {
   if (!b.s.on("bloom")) return;
   PassPlan& pass = b.pass("bloom", {"bloom"}, pictureOf(b.s), {"bloom"});
-  b.target("bloom", "RGBA16F", {"bloom"}, bloomSize(b.s.options.size), bloomLevels(b.s.options.size.y));
+  b.target("bloom", "RGBA16F", {"bloom"}, bloomSize(b.s.shaded), bloomLevels(b.s.shaded.y));
   for (const char* name : {"bloom_first", "bloom_down", "bloom_up"}) b.useScreen(pass, name, std::string("post/") + name + ".frag", {});
 }
 
@@ -64,14 +64,16 @@ void addToneMapping(Builder& b) {
   if ((!s.on("tone_mapping") && !s.on("linear_output")) || s.developsInPlace()) return;
   const bool automatic = s.on("auto_exposure"), host = s.on("host_depth_in"), linear = s.options.output == Output::Linear;
   const bool bloom = s.on("bloom"), edges = s.on("edge_antialiasing");
-  PassPlan& pass = b.pass("tonemap", {"tone_mapping", "linear_output", "host_depth_in"}, pictureOf(s), {edges ? "display" : "target"});
-  if (edges) b.target("display", "RGBA8", {"edge_antialiasing"});
+  PassPlan& pass = b.pass("tonemap", {"tone_mapping", "linear_output", "host_depth_in", "upscaling"}, pictureOf(s), {edges ? "display" : "target"});
+  if (edges) b.target("display", "RGBA8", {"edge_antialiasing"}, s.options.size);
   if (bloom) pass.reads.emplace_back("bloom");
   if (automatic) pass.reads.push_back("exposure");
   if (host) pass.reads.insert(pass.reads.end(), {"gbuffer_b", "depth"});
-  b.useScreen(pass, "tonemap", "post/tonemap.frag",
-              {define("AUTO_EXPOSURE", automatic), define("BLOOM", bloom), define("DISPLAY_LUMA", edges), define("HOST_DEPTH", host), define("LINEAR", linear),
-               define("TONEMAP", linear ? 0 : int(s.quality.toneMap))});
+  std::vector<std::string> defines = {define("AUTO_EXPOSURE", automatic), define("BLOOM", bloom), define("DISPLAY_LUMA", edges), define("HOST_DEPTH", host), define("LINEAR", linear)};
+  if (host) defines.push_back(defineNormals(s.quality));
+  defines.push_back(define("TONEMAP", linear ? 0 : int(s.quality.toneMap)));
+  defines.push_back(define("UPSCALE", s.on("upscaling")));
+  b.useScreen(pass, "tonemap", "post/tonemap.frag", std::move(defines));
 }
 
 void addEdgeAntialiasing(Builder& b) {
@@ -117,12 +119,12 @@ void addDebugView(Builder& b) {
   PassPlan& pass = b.pass("debug_view", {"debug_view"}, shownBy(s), {"target"});
   for (bool o : s.projections())
     b.useScreen(pass, o ? "debug_view+ortho" : "debug_view", "post/debug.frag",
-                {define("DETAIL", s.detailTarget()), define("GEOMETRY", s.hasDepth()), define("OCCLUSION", s.on("baked_occlusion") || s.on("screen_occlusion")), define("ORTHOGRAPHIC", o), define("VIEW", int(s.options.debugView))});
+                {define("DETAIL", s.detailTarget()), define("GEOMETRY", s.hasDepth()), defineNormals(s.quality), define("OCCLUSION", s.on("baked_occlusion") || s.on("screen_occlusion")), define("ORTHOGRAPHIC", o), define("VIEW", int(s.options.debugView))});
 }
 
 void addDepthOut(Builder& b) {
   if (!b.s.on("host_depth_out")) return;
-  b.useScreen(b.pass("depth_out", {"host_depth_out"}, {"depth"}, {"host depth"}), "depth_out", "post/depth_out.frag", {define("GEOMETRY", b.s.hasDepth())});
+  b.useScreen(b.pass("depth_out", {"host_depth_out", "upscaling"}, {"depth"}, {"host depth"}), "depth_out", "post/depth_out.frag", {define("GEOMETRY", b.s.hasDepth()), define("UPSCALE", b.s.on("upscaling"))});
 }
 
 }  // namespace burnish::plan

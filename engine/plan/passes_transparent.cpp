@@ -21,7 +21,7 @@ void addTransparent(Builder& b) {
   readSurroundings(s, pass);
   if (s.shadows().rung != Shadow::None) pass.reads.push_back("shadow_maps");
   if (glass && s.facts.refracts) {
-    b.target("scene_color", s.options.output == Output::Linear ? "RGBA32F" : "RGBA16F", {"glass"}, {0, 0}, s.facts.blurs ? levelsOf(s.options.size) : 1);
+    b.target("scene_color", s.lightFormat(), {"glass"}, {0, 0}, s.facts.blurs ? levelsOf(s.shaded) : 1);
     pass.writes.push_back("scene_color");
     if (s.facts.blurs) b.useScreen(pass, "scene_blur", "forward/scene_blur.frag", {});
   }

@@ -5,6 +5,7 @@
 
 #include "plan/builder.h"
 #include "plan/effects.h"
+#include "plan/scaling.h"
 #include "plan/temporal.h"
 
 namespace burnish {
@@ -30,7 +31,7 @@ bool plan::reads(const FramePlan& plan, std::string_view what) {
 }
 
 FramePlan plan::planOf(const Scene& scene, std::span<const Seen> views, const Quality& quality, const Capabilities& caps, const PlanOptions& options, const Facts* whole) {
-  Situation situation{scene, views, quality, caps, options, factsOf(scene, views, quality, options), whole, {}};
+  Situation situation{scene, views, quality, caps, options, shadedSize(quality, options), factsOf(scene, views, quality, options), whole, {}};
   judgeEffects(situation);
   Builder builder(situation);
   for (Step step : steps()) step(builder);
@@ -42,9 +43,10 @@ FramePlan makePlan(const Scene& scene, std::span<const View> views, const Qualit
   derived.update(scene);
   Report report;
   std::vector<plan::Seen> inView(views.size()), everywhere(views.size());
+  const glm::ivec2 shaded = plan::shadedSize(quality, options);
   for (std::size_t i = 0; i < views.size(); ++i) {
-    plan::look(scene, derived, views[i], options.size, quality, report, inView[i]);
-    plan::lookEverywhere(scene, derived, views[i], options.size, quality, report, everywhere[i]);
+    plan::look(scene, derived, views[i], options.size, quality, report, inView[i], {0, 0}, shaded);
+    plan::lookEverywhere(scene, derived, views[i], options.size, quality, report, everywhere[i], shaded);
   }
   // Whatever is there may move one day.
   if (options.wholeScene && plan::keepsHistory(quality, options))

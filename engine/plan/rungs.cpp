@@ -147,6 +147,17 @@ constexpr Rung kSpecularAntialiasing[] = {
     {"geometric", "lobes widen by what the normal turns within a pixel, maps included", "Kaplanyan et al. 2016; Tokuyoshi and Kaplanyan 2021, listing 5"},
 };
 
+constexpr Rung kNormalStorage[] = {
+    {"oct-8", "2 x 8 bits, 4 bytes a pixel with the roughness: off by 0.94 degrees at most", "Meyer et al. 2010; Cigolle et al. 2014, section 3.3"},
+    {"oct-12", "2 x 12 bits, 4 bytes a pixel with the roughness: off by 0.059 degrees at most", "Meyer et al. 2010; Cigolle et al. 2014, section 3.3"},
+    {"oct-16", "2 x 16 bits, 8 bytes a pixel with 16 bits of roughness: off by 0.0037 degrees at most", "Meyer et al. 2010; Cigolle et al. 2014, section 3.3"},
+};
+constexpr Rung kLightBuffer[] = {
+    {"r11g11b10", "4 bytes a pixel, no sign, no alpha, 6, 6 and 5 bits of mantissa: steps of 1.6 % (blue 3.1 %)", "OpenGL 4.5, section 2.3.4"},
+    {"rgba16f", "8 bytes a pixel, 10 bits of mantissa: steps of 0.1 %", "OpenGL 4.5, section 2.3.4"},
+    {"rgba32f", "16 bytes a pixel, 23 bits of mantissa", "OpenGL 4.5, section 2.3.4"},
+};
+
 constexpr Term kTerms[] = {
     {"specular", "the specular model", kSpecular},
     {"distribution", "how microfacet normals are distributed (specular=microfacet)", kDistribution},
@@ -170,6 +181,8 @@ constexpr Term kTerms[] = {
     {"antialiasing", "edges of the picture", kAntialiasing, true},
     {"bloom", "light that scatters in the lens", kBloom, true},
     {"specular-antialiasing", "highlights narrower than a pixel", kSpecularAntialiasing, true},
+    {"normal-storage", "how the G-buffer holds normals (path=deferred)", kNormalStorage, true},
+    {"light-buffer", "how radiance is held until it is developed for a display", kLightBuffer, true},
 };
 
 // One place that knows which member each term is.
@@ -197,7 +210,9 @@ auto withMember(Q& q, std::size_t term, F&& f) {
     case 18: return f(q.shadow);
     case 19: return f(q.antialiasing);
     case 20: return f(q.bloom);
-    default: return f(q.specularAntialiasing);
+    case 21: return f(q.specularAntialiasing);
+    case 22: return f(q.normalStorage);
+    default: return f(q.lightBuffer);
   }
 }
 
@@ -272,6 +287,9 @@ Result<void> setPreset(Quality& quality, std::string_view name) {
   q.antialiasing = quality.antialiasing;
   q.bloom = quality.bloom;
   q.specularAntialiasing = quality.specularAntialiasing;
+  q.normalStorage = quality.normalStorage;
+  q.lightBuffer = quality.lightBuffer;
+  q.resolutionScale = quality.resolutionScale;
   q.bloomShare = quality.bloomShare;
   q.occlusionRadius = quality.occlusionRadius;
   q.shadowResolution = quality.shadowResolution;
@@ -302,6 +320,7 @@ std::vector<std::string> idleRungs(const Quality& quality) {
     if (quality.geometry != Geometry::Void) idle("normalization", "geometry");
     else if (quality.distribution != Distribution::BlinnPhong) idle("normalization", "distribution");
   }
+  if (quality.path == Path::Forward) idle("normal-storage", "path");
   const int family = plan::familyOf(quality);
   if (family == int(Distribution::Beckmann) || family == int(Distribution::Ggx)) idle("lobe", quality.specular == Specular::Microfacet ? "distribution" : "specular");
   return texts;

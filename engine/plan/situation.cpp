@@ -134,8 +134,8 @@ bool sees(const scene::ViewFrame& v, const Environment::Sun& sun) {
 
 }  // namespace
 
-void look(const Scene& scene, const scene::Derived& derived, const View& view, glm::ivec2 targetSize, const Quality& quality, Report& report, Seen& out, glm::dvec2 jitter) {
-  out.frame = scene::frameOf(view, targetSize, jitter);
+void look(const Scene& scene, const scene::Derived& derived, const View& view, glm::ivec2 targetSize, const Quality& quality, Report& report, Seen& out, glm::dvec2 jitter, glm::ivec2 shaded) {
+  out.frame = scene::frameOf(view, targetSize, jitter, shaded);
   scene::findVisible(scene, derived, out.frame, out.instances);
   out.batches = scene::batch(out.instances);
   out.transparent = scene::orderTransparent(scene, derived, out.frame, out.instances);
@@ -147,8 +147,8 @@ void look(const Scene& scene, const scene::Derived& derived, const View& view, g
   scene::gatherShadows(scene, derived, out.frame, quality, out.instances, scene::Reach::InView, out.lights, report, out.shadows);
 }
 
-void lookEverywhere(const Scene& scene, const scene::Derived& derived, const View& view, glm::ivec2 targetSize, const Quality& quality, Report& report, Seen& out) {
-  out.frame = scene::frameOf(view, targetSize);
+void lookEverywhere(const Scene& scene, const scene::Derived& derived, const View& view, glm::ivec2 targetSize, const Quality& quality, Report& report, Seen& out, glm::ivec2 shaded) {
+  out.frame = scene::frameOf(view, targetSize, {0, 0}, shaded);
   scene::findVisible(scene, derived, out.frame, out.instances, scene::Reach::Everywhere);
   out.batches = scene::batch(out.instances);
   out.transparent = scene::orderTransparent(scene, derived, out.frame, out.instances);
@@ -182,6 +182,16 @@ Facts factsOf(const Scene& scene, std::span<const Seen> views, const Quality& qu
   if (const auto& sun = scene.environment.sun; sun && scene.environment.background)
     if (options.wholeScene || std::any_of(views.begin(), views.end(), [&](const Seen& v) { return sees(v.frame, *sun); })) facts.why[std::size_t(Call::SunDisc)] = "the environment's sun";
   return facts;
+}
+
+std::string_view Situation::lightFormat() const {
+  if (options.output == Output::Linear && !options.displayLight) return "RGBA32F";
+  switch (quality.lightBuffer) {
+    case LightBuffer::R11G11B10: return "R11F_G11F_B10F";
+    case LightBuffer::Rgba16F: break;
+    case LightBuffer::Rgba32F: return "RGBA32F";
+  }
+  return "RGBA16F";
 }
 
 bool Situation::on(std::string_view effect) const {

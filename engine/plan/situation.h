@@ -27,10 +27,10 @@ struct Seen {
   double fogDepth = 0;                               ///< no more than so much fog lies before anything in view (optical depth)
   std::vector<scene::Moved> moved;                   ///< since the frame before; filled in by whoever remembers it
 };
-/// What a view sees. `lights` is filled too; what is mended goes into the report.
-void look(const Scene& scene, const scene::Derived& derived, const View& view, glm::ivec2 targetSize, const Quality& quality, Report& report, Seen& out, glm::dvec2 jitter = {0, 0});
+/// What a view sees. `shaded`: the size at which pixels are shaded (none: the target's). `lights` is filled too; what is mended goes into the report.
+void look(const Scene& scene, const scene::Derived& derived, const View& view, glm::ivec2 targetSize, const Quality& quality, Report& report, Seen& out, glm::dvec2 jitter = {0, 0}, glm::ivec2 shaded = {0, 0});
 /// As if everything were in view (PlanOptions::wholeScene).
-void lookEverywhere(const Scene& scene, const scene::Derived& derived, const View& view, glm::ivec2 targetSize, const Quality& quality, Report& report, Seen& out);
+void lookEverywhere(const Scene& scene, const scene::Derived& derived, const View& view, glm::ivec2 targetSize, const Quality& quality, Report& report, Seen& out, glm::ivec2 shaded = {0, 0});
 
 /// What a scene holds that effects are called by.
 enum class Call : std::uint8_t { Geometry, Deformation, TwoSided, AlphaTest, BakedOcclusion, Anisotropy, RoughDiffuse, Emissive, Directional, Local, Environment, Background, AlphaBlend, Glass, Fog, SunDisc, SunShadows, LocalShadows, Moving, ReflectionProbe, AmbientGrid, Count };
@@ -64,6 +64,7 @@ struct Situation {
   const Quality& quality;
   const Capabilities& caps;
   const PlanOptions& options;
+  glm::ivec2 shaded{0};           ///< size of what is shaded, pixels (plan/scaling.h)
   Facts facts;                    ///< of what is in view
   const Facts* whole = nullptr;   ///< of the whole scene, for the reasons of what is off; may be absent
   std::vector<EffectPlan> effects;  ///< judged so far
@@ -81,6 +82,8 @@ struct Situation {
   [[nodiscard]] bool grid() const { return on("ambient_grid") && facts.has(Call::AmbientGrid); }
   /// Lighting writes what the display takes straight into the target: no effect needs the light buffer. Asked once all effects are judged.
   [[nodiscard]] bool developsInPlace() const;
+  /// Of the light buffer. A picture for a display is pre-exposed, so that half floats suffice; linear output keeps radiance in floats.
+  [[nodiscard]] std::string_view lightFormat() const;
   /// Fog is lit by suns or surroundings, so that it shows before an empty background too.
   [[nodiscard]] bool fogShines() const { return on("fog") && (on("directional_lights") || on("environment_lighting")); }
   /// What nothing was drawn over is filled: with the surroundings, or with fog.

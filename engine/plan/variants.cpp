@@ -174,6 +174,7 @@ ProgramPlan lightingProgram(int bucket, const Quality& quality, const LightingVa
   p.defines.push_back(define("ANISOTROPIC", lighting.details.brushed));
   p.defines.push_back(define("DETAIL", lighting.detail()));
   p.defines.push_back(define("ROUGH_DIFFUSE", lighting.details.rough));
+  p.defines.push_back(defineNormals(quality));
   p.defines.push_back(define("IN_PLACE", lighting.inPlace >= 0));
   p.defines.push_back(define("OCCLUSION", lighting.occlusion));
   p.defines.push_back(define("TILE_LIGHTS", bucket));

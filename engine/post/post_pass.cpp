@@ -49,7 +49,7 @@ Result<void> drawTonemap(FrameContext& c, GLuint framebuffer) {
     if (!display) return fail(display.error());
     framebuffer = *display;
   }
-  beginScreen(c, framebuffer);
+  beginScreen(c, framebuffer, Pixels::Target);
   bindIfThere(c, c.picture, UNIT_LIGHT_BUFFER);
   bindIfThere(c, "exposure", UNIT_EXPOSURE);
   if (c.plan.on("host_depth_in")) {
@@ -65,7 +65,7 @@ Result<void> drawTonemap(FrameContext& c, GLuint framebuffer) {
 }
 
 Result<void> smoothEdges(FrameContext& c, GLuint framebuffer) {
-  beginScreen(c, framebuffer);
+  beginScreen(c, framebuffer, Pixels::Target);
   const gl::Texture& display = *c.targets.texture("display");
   c.device.gl.TextureParameteri(display.id(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   c.device.gl.TextureParameteri(display.id(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
@@ -112,7 +112,7 @@ Result<void> giveHostDepth(FrameContext& c, const HostDepth& host) {
   attachment.format = GL_DEPTH_COMPONENT32F;
   auto framebuffer = gl::Framebuffer::create(c.device, {}, attachment, "host depth");
   if (!framebuffer) return fail("target depth", "cannot be drawn to: " + framebuffer.error().what, "give a 2D depth texture of the target's size");
-  beginScreen(c, framebuffer->id());
+  beginScreen(c, framebuffer->id(), Pixels::Target);
   bindIfThere(c, "depth", UNIT_DEPTH);
   return drawDepth(c, "depth_out", host);
 }

@@ -5,9 +5,10 @@
 
 namespace burnish::prefilter {
 
-Result<EnvironmentLight> prefilterEnvironment(const Image& latLong, int baseSize) {
+Result<EnvironmentLight> prefilterEnvironment(const Image& latLong, int baseSize, double error) {
   PrefilterOptions options;
   options.size = baseSize;
+  options.error = error;
   auto cube = prefilterCubemap(latLong, options);
   if (!cube) return fail(cube.error());
   EnvironmentLight light;

@@ -13,7 +13,7 @@ struct EnvironmentLight {
   std::array<glm::vec3, 9> irradiance{};  ///< irradiance / pi with all constants folded in (shaders/shading/environment.h)
   float meanLuminance = 0;                ///< over the sphere, in the picture's unit
 };
-/// `latLong`: as for prefilterCubemap(), of which this is the default, or the error is its. baseSize: a power of two, at least 16; levels down to 8² faces.
-Result<EnvironmentLight> prefilterEnvironment(const Image& latLong, int baseSize = 256);
+/// `latLong` and `error`: as for prefilterCubemap(), of which this is the default, or the error is its. baseSize: a power of two, at least 16; levels down to 8² faces.
+Result<EnvironmentLight> prefilterEnvironment(const Image& latLong, int baseSize = 256, double error = 1e-4);
 
 }  // namespace burnish::prefilter

@@ -22,7 +22,11 @@ NearLobe nearLobeOf(const Lobe& lobe, const Split& split) {
   n.ggx = lobe.shape == ReflectionLobe::Ggx;
   n.slope = float((1 / lobe.alpha2 - 1) / 2);
   n.end = float(split.end);
-  for (std::size_t k = 0; k < split.c.size(); ++k) n.c[k] = float(split.c[k]);
+  // Only where floats may need it (roughness under 0.025): c of x^6 grows like end^-6.
+  const double scale = n.ggx || split.end > 1e-5 || !(split.end > 0) ? 1 : std::exp2(std::floor(-std::log2(split.end)));
+  n.scale = float(scale);
+  double power = 1;
+  for (std::size_t k = 0; k < split.c.size(); ++k, power /= scale) n.c[k] = float(split.c[k] * power);
   return n;
 }
 

@@ -267,7 +267,7 @@ void nearTexels(const TexelsView& t, const Run* runs, std::size_t count, const d
   using V = hn::Vec<Floats>;
   constexpr std::size_t lanes = hn::MaxLanes(Floats());
   const V rx = hn::Set(d, float(direction[0])), ry = hn::Set(d, float(direction[1])), rz = hn::Set(d, float(direction[2]));
-  const V half = hn::Set(d, 0.5f), one = hn::Set(d, 1.0f), two = hn::Set(d, 2.0f), end = hn::Set(d, lobe.end), slope = hn::Set(d, lobe.slope), zero = hn::Zero(d);
+  const V half = hn::Set(d, 0.5f), one = hn::Set(d, 1.0f), two = hn::Set(d, 2.0f), end = hn::Set(d, lobe.end), slope = hn::Set(d, lobe.slope), scale = hn::Set(d, lobe.scale), zero = hn::Zero(d);
   const V c0 = hn::Set(d, lobe.c[0]), c1 = hn::Set(d, lobe.c[1]), c2 = hn::Set(d, lobe.c[2]), c3 = hn::Set(d, lobe.c[3]), c4 = hn::Set(d, lobe.c[4]), c5 = hn::Set(d, lobe.c[5]), c6 = hn::Set(d, lobe.c[6]);
   V s0 = zero, s1 = zero, s2 = zero, s3 = zero;
   for (std::size_t n = 0; n < count; ++n) {
@@ -286,9 +286,10 @@ void nearTexels(const TexelsView& t, const Run* runs, std::size_t count, const d
         inverse = hn::Mul(inverse, hn::NegMulAdd(q2, inverse, two));
         w = hn::Sub(hn::Mul(hn::Sub(one, x), inverse), sum);
       } else {
+        const V y = hn::Mul(scale, x);
         V sum = c6;
-        sum = hn::MulAdd(sum, x, c5), sum = hn::MulAdd(sum, x, c4), sum = hn::MulAdd(sum, x, c3);
-        sum = hn::MulAdd(sum, x, c2), sum = hn::MulAdd(sum, x, c1), sum = hn::MulAdd(sum, x, c0);
+        sum = hn::MulAdd(sum, y, c5), sum = hn::MulAdd(sum, y, c4), sum = hn::MulAdd(sum, y, c3);
+        sum = hn::MulAdd(sum, y, c2), sum = hn::MulAdd(sum, y, c1), sum = hn::MulAdd(sum, y, c0);
         sum = hn::Mul(sum, sum), sum = hn::Mul(sum, sum), sum = hn::Mul(sum, sum);
         w = hn::Mul(sum, sum);
       }

@@ -76,10 +76,10 @@ struct FaceCone {
 /// have room for 16 more. cosine2 > u².
 void coneRows(const FaceCone& cone, int firstRow, int count, std::int32_t* first, std::int32_t* last);
 
-/// What is summed directly at x = |l - R|²/2 < end. Blinn-Phong's lobe: the polynomial c of x to the power 16. GGX's (1 - x)/(1 + slope x)² less the polynomial c of x - end.
+/// What is summed directly at x = |l - R|²/2 < end. Blinn-Phong's lobe: the polynomial c of scale · x to the power 16; scale, a power of two, keeps c of the narrowest lobes within floats. GGX's (1 - x)/(1 + slope x)² less the polynomial c of x - end.
 struct NearLobe {
   bool ggx = false;
-  float slope = 0, end = 0;
+  float slope = 0, end = 0, scale = 1;
   float c[7] = {};
 };
 /// sums[0..3] += Σ of lobe × (r, g, b, solid angle) over the runs.

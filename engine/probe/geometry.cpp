@@ -4,33 +4,17 @@
 
 #include <new>
 
+#include "scene/deformed.h"
 #include "scene/transparency.h"
 #include "scene/visibility.h"
 
 namespace burnish::probe {
 namespace {
 
-/// The vertices in the pose's space: target weights first, then the joints.
-std::vector<glm::dvec3> posed(const Mesh& mesh, const scene::Pose* pose) {
-  std::vector<glm::dvec3> out(mesh.positions.begin(), mesh.positions.end());
-  if (!pose) return out;
-  for (const auto& [target, weight] : pose->targets) {
-    const std::vector<glm::vec3>& deltas = mesh.targets[target].positions;
-    for (std::size_t v = 0; v < std::min(deltas.size(), out.size()); ++v) out[v] += double(weight) * glm::dvec3(deltas[v]);
-  }
-  if (!pose->skinned) return out;
-  for (std::size_t v = 0; v < out.size(); ++v) {
-    glm::dmat4 m(0);
-    for (int c = 0; c < 4; ++c) m += double(mesh.weights[v][c]) * glm::dmat4(pose->joints[mesh.joints[v][c]]);
-    out[v] = glm::dvec3(m * glm::dvec4(out[v], 1));
-  }
-  return out;
-}
-
 Look lookOf(const Material* m) { return !m ? kOpaque : scene::isTransparent(*m) ? kTransparent : m->alphaTest ? kCutout : kOpaque; }
 
 reference::TriangleMesh placed(const scene::Placed& p, const Geometry::Surface& surface) {
-  reference::TriangleMesh out{posed(*p.mesh, p.pose), p.mesh->indices, surface.look, surface.twoSided};
+  reference::TriangleMesh out{scene::deformedPositions(*p.mesh, p.pose), p.mesh->indices, surface.look, surface.twoSided};
   for (glm::dvec3& v : out.positions) v = glm::dvec3(p.placement * glm::dvec4(v, 1));
   const bool flipped = (glm::determinant(glm::dmat3(p.placement)) < 0) != (p.pose && p.pose->flipped);
   if (flipped)

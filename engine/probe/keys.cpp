@@ -6,8 +6,8 @@
 #include "image/cube_file.h"
 #include "probe/capture.h"
 #include "probe/geometry.h"
-#include "probe/scene_hash.h"
 #include "probe/visibility.h"
+#include "scene/scene_hash.h"
 #include "scene/transparency.h"
 
 namespace burnish::probe {
@@ -107,7 +107,7 @@ class KeyMaker {
     h.text(capabilities.vendor), h.text(capabilities.renderer), h.text(capabilities.version);
     add(h, quality_);
     h.value(options_.size), h.value(options_.lobe), h.value(options_.albedoLimit), h.value(captureNear(scene_));
-    h.hash(hashOf(scene_.environment)), h.hash(hashOf(scene_.fog));
+    h.hash(scene::hashOf(scene_.environment)), h.hash(scene::hashOf(scene_.fog));
     // Maps of suns follow the boxes of all that is around; and where there are more maps than a view may have, each light decides about all others.
     const bool crowded = mapsWanted_ > quality_.shadowMaps;
     if (sunShadows_ || crowded)
@@ -194,7 +194,7 @@ class KeyMaker {
   const ProbeSet& places_;
   const BakeOptions& options_;
   Quality quality_;
-  SceneHashes hashes_;
+  scene::SceneHashes hashes_;
   std::vector<scene::Placed> placed_;
   std::vector<int> surfaceOf_;  ///< by the instance's index, -1: none
   std::vector<Reach> lights_;

@@ -17,7 +17,7 @@ void History::begin(const Scene& scene, const scene::Derived& derived, std::span
   const Fog& f = scene.fog;
   const Environment::Sun sun = e.sun.value_or(Environment::Sun{.radius = 0});
   const Stamp stamp{scene.identity.value(), scene.nodes.revision(), scene.meshes.revision(), scene.textures.revision(), scene.materials.revision(), scene.instances.revision(),
-                    scene.lights.revision(), scene.skins.revision(), scene.probes.revision, refreshes, e.revision, e.color, e.scale,
+                    scene.lights.revision(), scene.skins.revision(), scene.probes.revision, refreshes, e.revision, e.color, e.scale, e.filterSize, e.filterError,
                     {f.density, f.falloff, f.height, f.albedo.x, f.albedo.y, f.albedo.z, f.anisotropy, f.start},
                     {sun.toSun.x, sun.toSun.y, sun.toSun.z, sun.radiance.x, sun.radiance.y, sun.radiance.z, sun.radius, sun.horizon}, e.background, bool(request.hostDraw), quality};
   // What the host draws is not known to keep still.

@@ -29,6 +29,8 @@ class History {
     std::uint64_t scene = 0, nodes = 0, meshes = 0, textures = 0, materials = 0, instances = 0, lights = 0, skins = 0, probes = 0, refreshes = 0, environment = 0;
     glm::vec3 color{0};
     float scale = 0;
+    int filterSize = 0;
+    double filterError = 0;
     std::array<float, 8> fog{}, sun{};
     bool background = false, hostDraws = false;
     Quality quality;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "interface/limits.h"
+#include "plan/scaling.h"
 #include "plan/temporal.h"
 #include "renderer/impl.h"
 #include "renderer/refresh.h"
@@ -48,6 +49,7 @@ std::vector<std::string> heldSettings(const Quality& q) {
     if (value >= low && value <= high) return;
     texts.push_back(fmt::format("Quality::{} is {}, out of {} to {}: {} is used", name, value, low, high, std::isfinite(value) ? std::clamp(value, low, high) : otherwise));
   };
+  check("resolutionScale", double(q.resolutionScale), 0.25, 1, 1);
   check("transparentLayers", q.transparentLayers, 1, 64, 1);
   if (q.bloom != Bloom::None) check("bloomShare", double(q.bloomShare), 0, 1, 0);
   if (q.occlusion > Occlusion::Baked) check("occlusionRadius", double(q.occlusionRadius), double(1e-3f), double(1e3f), 1);
@@ -116,6 +118,7 @@ PlanOptions Renderer::Impl::planOptions(const Target& target, const RenderReques
   o.hostDraw = bool(request.hostDraw);
   o.countNonfinite = request.countNonfinite;
   o.sequence = request.sequence;
+  o.displayLight = request.displayLight;
   o.tileBounds = options.tileBounds;
   o.removed = options.removedEffects;
   o.forced = options.forcedEffects;
@@ -172,7 +175,7 @@ Result<void> Renderer::Impl::renderView(Series& series, SceneState& state, const
   FrameContext c{.device = *device, .plan = plan, .programs = series.programs, .targets = series.targets, .gpuScene = state.gpu, .buffers = series.buffers, .scene = scene, .quality = quality, .view = view.frame,
                  .visible = view.instances, .batches = view.batches, .lights = view.lights, .transparent = view.transparent, .shadows = &view.shadows, .environment = environment, .probes = view.probes, .grid = grid, .probeLight = probeLight, .size = target.size, .output = target.framebuffer, .past = past, .moved = view.moved, .report = report, .stats = stats};
   const float display = quality.exposureEv ? exposureOf(*quality.exposureEv) : 1;
-  if (request.output == Output::Display) c.preExposure = quality.exposureEv ? display : guessedExposure(view.lights, environment, scene.environment.scale, std::max(brightestPlace(scene, view.probes), grid ? grid->luminance : 0.0f));
+  if (request.output == Output::Display || request.displayLight) c.preExposure = quality.exposureEv ? display : guessedExposure(view.lights, environment, scene.environment.scale, std::max(brightestPlace(scene, view.probes), grid ? grid->luminance : 0.0f));
   series.preExposure = c.preExposure;
   if (auto done = gpu_scene::uploadFrameData(c, display); !done) return done;
   if (drawsInstances(plan))
@@ -226,9 +229,10 @@ Result<FrameStats> Renderer::render(const Scene& scene, std::span<const View> vi
 
 Result<void> Renderer::Impl::look(Series& series, SceneState& state, const Scene& scene, std::span<const View> views, const Target& target, const Quality& quality, const PlanOptions& planned, const History* history) {
   series.seen.resize(views.size());
+  const glm::ivec2 shaded = plan::shadedSize(quality, planned);
   for (std::size_t i = 0; i < views.size(); ++i) {
     plan::Seen& seen = series.seen[i];
-    plan::look(scene, state.derived, views[i], target.size, quality, report, seen, history ? history->jitter(i) : glm::dvec2(0));
+    plan::look(scene, state.derived, views[i], target.size, quality, report, seen, history ? history->jitter(i) : glm::dvec2(0), shaded);
     boundLights(seen.lights, seen.shadows);
     seen.moved = history ? history->motion().among(seen.instances) : std::vector<scene::Moved>{};
   }
@@ -261,6 +265,7 @@ Result<FrameStats> Renderer::Impl::draw(Series& series, const Scene& scene, std:
   if (auto seen = look(series, state, scene, views, target, quality, planned, history); !seen) return fail(seen.error());
   if (picture) {
     reportQuality(quality);
+    if (planned.hostDepthIn && plan::scaleOf(quality) < 1) report.warn("resolution scale", "it has no effect where the target brings depth, which has the target's size");
     logEffects();
   }
   FrameStats stats;

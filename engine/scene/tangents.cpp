@@ -270,6 +270,12 @@ std::size_t makeTangents(Mesh& mesh, const UvMapping& mapping) {
   return Builder(mesh, mapping).build();
 }
 
+Result<Mesh> preparedMesh(const Mesh& mesh, bool tangents, Report& report) {
+  Result<Mesh> valid = validated(mesh, report);
+  if (valid && tangents && valid->tangents.empty() && !valid->uv0.empty()) burnish::makeTangents(*valid);
+  return valid;
+}
+
 }  // namespace scene
 
 void makeTangents(Mesh& mesh) { scene::makeTangents(mesh, UvMapping{}); }

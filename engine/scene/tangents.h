@@ -9,4 +9,7 @@ namespace burnish::scene {
 /// vertices were added by splitting.
 std::size_t makeTangents(Mesh& mesh, const UvMapping& mapping);
 
+/// The mesh as it is drawn: validated, with tangents where they are asked for and can be made (which may split vertices).
+Result<Mesh> preparedMesh(const Mesh& mesh, bool tangents, Report& report);
+
 }  // namespace burnish::scene

@@ -103,6 +103,17 @@ bool Frustum::meetsSphere(glm::dvec3 center, double radius) const {
 
 namespace {
 
+/// A rectangle of a target on one of another size. Rectangles that share a border still do.
+glm::ivec4 rescaled(glm::ivec4 v, glm::ivec2 from, glm::ivec2 to) {
+  glm::ivec4 r;
+  for (int i = 0; i < 2; ++i) {
+    const double k = double(to[i]) / std::max(from[i], 1);
+    r[i] = std::clamp(int(std::lround(v[i] * k)), 0, std::max(to[i] - 1, 0));
+    r[i + 2] = std::max(int(std::lround((v[i] + v[i + 2]) * k)) - r[i], 1);
+  }
+  return r;
+}
+
 /// Moves the picture by so many pixels of the view.
 glm::dmat4 shifted(glm::dvec2 pixels, glm::ivec4 viewport) {
   glm::dmat4 m(1);
@@ -115,9 +126,10 @@ glm::dmat4 shifted(glm::dvec2 pixels, glm::ivec4 viewport) {
 
 glm::dmat4 withoutJitter(const ViewFrame& f) { return shifted(f.jitter, f.viewport) * f.viewProjection; }
 
-ViewFrame frameOf(const View& view, glm::ivec2 size, glm::dvec2 jitter) {
+ViewFrame frameOf(const View& view, glm::ivec2 size, glm::dvec2 jitter, glm::ivec2 shaded) {
   ViewFrame f;
-  f.viewport = view.viewport.z > 0 && view.viewport.w > 0 ? view.viewport : glm::ivec4(0, 0, size);
+  f.target = view.viewport.z > 0 && view.viewport.w > 0 ? view.viewport : glm::ivec4(0, 0, size);
+  f.viewport = shaded == glm::ivec2(0) || shaded == size ? f.target : rescaled(f.target, size, shaded);
   f.orthographic = view.orthographic;
   f.eye = view.eye;
   for (int i = 0; i < 3; ++i)
@@ -125,7 +137,7 @@ ViewFrame frameOf(const View& view, glm::ivec2 size, glm::dvec2 jitter) {
   f.axes = view.axes;
   f.near = within(view.near, 1e-6, 1e9, 0.05);
   f.far = view.far > 0 ? within(view.far, f.near * 1.0001, 1e12, 0) : 0;
-  const double aspect = double(std::max(f.viewport.z, 1)) / double(std::max(f.viewport.w, 1));
+  const double aspect = double(std::max(f.target.z, 1)) / double(std::max(f.target.w, 1));
   glm::dmat4 projection(0);
   if (f.orthographic) {
     if (f.far <= 0) f.far = 1000;
@@ -166,7 +178,7 @@ ViewFrame narrowed(const ViewFrame& frame, glm::ivec2 pixel) {
   zoom[3][0] = -cx * w;
   zoom[3][1] = -cy * h;
   f.viewProjection = zoom * frame.viewProjection;
-  f.viewport = {0, 0, 1, 1};
+  f.viewport = f.target = {0, 0, 1, 1};
   return f;
 }
 

@@ -48,7 +48,8 @@ class Derived {
 
 /// The view's geometry in numbers that passes and culling share.
 struct ViewFrame {
-  glm::ivec4 viewport{0};
+  glm::ivec4 viewport{0};                 ///< of the pixels that are shaded
+  glm::ivec4 target{0};                   ///< on the target: the same, unless pixels are shaded at a smaller size
   bool orthographic = false;
   glm::dvec3 eye{0};
   glm::dmat3 axes{1};                     ///< right, up, back
@@ -58,8 +59,9 @@ struct ViewFrame {
   glm::dmat4 viewProjection{1};           ///< camera-relative world to clip, depth reversed in [0,1], jitter included
   glm::dvec2 jitter{0};                   ///< pixels from their middles to where they are sampled (antialiasing over time), right and up
 };
-/// Viewport and projection of a view on a target. Values out of range (fov, near, NaN) are clamped to what can be drawn.
-ViewFrame frameOf(const View& view, glm::ivec2 targetSize, glm::dvec2 jitter = {0, 0});
+/// Viewport and projection of a view on a target. Values out of range (fov, near, NaN) are clamped to what can be drawn. `shaded`: the size at which pixels are shaded, for the whole target; none: the
+/// target's.
+ViewFrame frameOf(const View& view, glm::ivec2 targetSize, glm::dvec2 jitter = {0, 0}, glm::ivec2 shaded = {0, 0});
 /// ViewFrame::viewProjection as if pixels were sampled in their middles.
 glm::dmat4 withoutJitter(const ViewFrame& frame);
 /// The same frame narrowed to one pixel of the viewport, drawn to a 1x1 target (picking).

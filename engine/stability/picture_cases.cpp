@@ -16,13 +16,13 @@ using glm::vec3;
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInfinity = std::numeric_limits<float>::infinity();
 
 // On both paths: the deferred one stops at the G-buffer what is no number, the forward one must not need that.
-Result<Finding> nonfinite(const ProcAddress& gl, Renderer& renderer, const Scene& scene, const std::string& where, Shadow shadow = Shadow::Pcf) {
+Result<Finding> nonfinite(Studio& studio, const Scene& scene, const std::string& where, Shadow shadow = Shadow::Pcf) {
   Finding found;
   for (const Path path : {Path::Deferred, Path::Forward}) {
     Quality quality;
     quality.path = path;
     quality.shadow = shadow;
-    const auto p = draw(gl, renderer, scene, lookAt({0, 0.5, 4}, {0, 0, 0}, {0, 1, 0}, 0.7f), {64, 64}, {}, quality);
+    const auto p = draw(studio, scene, lookAt({0, 0.5, 4}, {0, 0, 0}, {0, 1, 0}, 0.7f), {64, 64}, {}, quality);
     if (!p) return fail(p.error());
     if (p->nonfinite && found.value == 0) found.where = where + (path == Path::Forward ? ", forward path" : "");
     found.value += double(p->nonfinite);
@@ -46,7 +46,7 @@ struct Sum {
 };
 
 // H13 through the renderer: G-buffer, tables and filtered cube included.
-Result<Finding> furnace(const ProcAddress& gl, Renderer& renderer) {
+Result<Finding> furnace(Studio& studio) {
   Finding worst;
   for (const float substance : {0.0f, 1.0f / 3, 0.4f, 0.5f, 0.7f, 1.0f})
     for (const float roughness : {0.05f, 0.3f, 1.0f}) {
@@ -57,7 +57,7 @@ Result<Finding> furnace(const ProcAddress& gl, Renderer& renderer) {
       m.roughness = roughness;
       place(scene, sphere(48, 96), m);
       scene.environment.color = vec3(1);
-      const auto p = draw(gl, renderer, scene, lookAt({0, 0, 3}, {0, 0, 0}, {0, 1, 0}, 0.5f), {48, 48}, {});
+      const auto p = draw(studio, scene, lookAt({0, 0, 3}, {0, 0, 0}, {0, 1, 0}, 0.5f), {48, 48}, {});
       if (!p) return fail(p.error());
       for (int y = 0; y < 48; ++y)
         for (int x = 0; x < 48; ++x)
@@ -68,7 +68,7 @@ Result<Finding> furnace(const ProcAddress& gl, Renderer& renderer) {
 }
 
 // H16: what passes 65504 in a half-float target is held there, not infinite and not black.
-Result<Finding> overflow(const ProcAddress& gl, Renderer& renderer) {
+Result<Finding> overflow(Studio& studio) {
   Sum sum;
   for (const float lux : {1e5f, 1e9f, 3e38f}) {
     Scene scene;
@@ -88,7 +88,7 @@ Result<Finding> overflow(const ProcAddress& gl, Renderer& renderer) {
     quality.exposureEv = -4.0f;
     RenderRequest request;
     const View view = lookAt({0, 0, 4}, {0, 0, 0}, {0, 1, 0}, 0.9f);
-    const auto p = draw(gl, renderer, scene, view, {64, 64}, request, quality);
+    const auto p = draw(studio, scene, view, {64, 64}, request, quality);
     if (!p) return fail(p.error());
     Finding f{double(p->nonfinite), fmt::format("{:g} lux", lux)};
     for (int y = 0; y < 64; ++y)
@@ -99,7 +99,7 @@ Result<Finding> overflow(const ProcAddress& gl, Renderer& renderer) {
 }
 
 // H17: one value that is no number in each input that a scene has.
-Result<Finding> planted(const ProcAddress& gl, Renderer& renderer) {
+Result<Finding> planted(Studio& studio) {
   struct Plant {
     const char* name;
     std::function<void(Scene&, Mesh&, Material&, Light&)> change;
@@ -135,13 +135,13 @@ Result<Finding> planted(const ProcAddress& gl, Renderer& renderer) {
     place(scene, std::move(mesh), material);
     addLight(scene, light, {0, 2, 2}, {0, -1, -1});
     addLight(scene, LightKind::Directional, 1, {0, 0, 0}, {0, -1, -1});
-    sum.add(nonfinite(gl, renderer, scene, plant.name));
+    sum.add(nonfinite(studio, scene, plant.name));
   }
   return sum.result();
 }
 
 // H18: normals and tangents that are no directions, collapsed coordinates, mirrored and singular transforms.
-Result<Finding> directions(const ProcAddress& gl, Renderer& renderer) {
+Result<Finding> directions(Studio& studio) {
   Sum sum;
   const auto add = [&](const char* name, const std::function<void(Mesh&, glm::dmat4&)>& change, bool mapped = false) {
     Scene scene;
@@ -154,7 +154,7 @@ Result<Finding> directions(const ProcAddress& gl, Renderer& renderer) {
     place(scene, std::move(mesh), material, local);
     addLight(scene, LightKind::Directional, 1, {0, 0, 0}, {0, -1, -1});
     scene.environment.color = vec3(0.5f);
-    sum.add(nonfinite(gl, renderer, scene, name));
+    sum.add(nonfinite(studio, scene, name));
   };
   add("zero normals", [](Mesh& m, glm::dmat4&) { m.normals.assign(m.positions.size(), vec3(0)); });
   add("zero tangents under a normal map", [](Mesh& m, glm::dmat4&) { m.tangents.assign(m.positions.size(), glm::vec4(0)); }, true);
@@ -167,7 +167,7 @@ Result<Finding> directions(const ProcAddress& gl, Renderer& renderer) {
 }
 
 // H21: lights with hard numbers.
-Result<Finding> hardLights(const ProcAddress& gl, Renderer& renderer) {
+Result<Finding> hardLights(Studio& studio) {
   Sum sum;
   for (const float inner : {0.0f, 0.5f, 1.5707963f})
     for (const float outer : {0.0f, 0.5f, 1.5707963f, 3.0f})
@@ -185,18 +185,18 @@ Result<Finding> hardLights(const ProcAddress& gl, Renderer& renderer) {
         addLight(scene, light, {0, 0, 1}, {0, 0, -1});  // on the surface
         addLight(scene, light, {0, 1, 2}, {0, -1, -2});
         addLight(scene, light, {0, 0, 0}, {0, 0, 1});   // inside
-        sum.add(nonfinite(gl, renderer, scene, fmt::format("cone {:g} to {:g}, range {:g}", inner, outer, range)));
+        sum.add(nonfinite(studio, scene, fmt::format("cone {:g} to {:g}, range {:g}", inner, outer, range)));
         if (inner != 0.5f) continue;
         std::vector<Id<Light>> lights;
         scene.lights.each([&](Id<Light> id, const Light&) { lights.push_back(id); });
         for (const Id<Light> id : lights) scene.lights.edit(id)->castsShadow = true;
-        for (const Shadow shadow : {Shadow::Tap, Shadow::Pcf, Shadow::Pcss}) sum.add(nonfinite(gl, renderer, scene, fmt::format("shadows, cone {:g} to {:g}, range {:g}", inner, outer, range), shadow));
+        for (const Shadow shadow : {Shadow::Tap, Shadow::Pcf, Shadow::Pcss}) sum.add(nonfinite(studio, scene, fmt::format("shadows, cone {:g} to {:g}, range {:g}", inner, outer, range), shadow));
       }
   return sum.result();
 }
 
 // H24: the deferred picture against the forward one.
-Result<Finding> forward(const ProcAddress& gl, Renderer& renderer) {
+Result<Finding> forward(Studio& studio) {
   Scene scene;
   for (int i = 0; i < 4; ++i) {
     Material m;
@@ -213,10 +213,10 @@ Result<Finding> forward(const ProcAddress& gl, Renderer& renderer) {
   const View view = lookAt({0, 0.3, 4}, {0, 0, 0}, {0, 1, 0}, 0.8f);
   Quality quality;
   quality.exposureEv = 1.0f;
-  const auto deferred = draw(gl, renderer, scene, view, {160, 80}, {}, quality);
+  const auto deferred = draw(studio, scene, view, {160, 80}, {}, quality);
   if (!deferred) return fail(deferred.error());
   quality.path = Path::Forward;
-  const auto reference = draw(gl, renderer, scene, view, {160, 80}, {}, quality);
+  const auto reference = draw(studio, scene, view, {160, 80}, {}, quality);
   if (!reference) return fail(reference.error());
   Finding worst;
   for (int y = 0; y < 80; ++y)
@@ -228,18 +228,18 @@ Result<Finding> forward(const ProcAddress& gl, Renderer& renderer) {
 }
 
 // H28: nothing to draw, nothing to draw on.
-Result<Finding> nothing(const ProcAddress& gl, Renderer& renderer) {
+Result<Finding> nothing(Studio& studio) {
   Sum sum;
   Scene empty;
-  sum.add(nonfinite(gl, renderer, empty, "an empty scene"));
+  sum.add(nonfinite(studio, empty, "an empty scene"));
   Scene dark;
   place(dark, sphere(16, 32), {});
-  sum.add(nonfinite(gl, renderer, dark, "no lights"));
-  const auto one = draw(gl, renderer, dark, lookAt({0, 0, 3}, {0, 0, 0}), {1, 1}, {});
+  sum.add(nonfinite(studio, dark, "no lights"));
+  const auto one = draw(studio, dark, lookAt({0, 0, 3}, {0, 0, 0}), {1, 1}, {});
   if (!one) return fail(one.error());
   Target none;
   const View view = lookAt({0, 0, 3}, {0, 0, 0});
-  if (renderer.render(dark, {&view, 1}, none, {})) sum.add(Finding{1, "a target of 0 x 0 pixels was not refused"});
+  if (studio.renderer.render(dark, {&view, 1}, none, {})) sum.add(Finding{1, "a target of 0 x 0 pixels was not refused"});
   return sum.result();
 }
 

@@ -1,5 +1,6 @@
 #include "stability/scenes.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace burnish::stability {
@@ -54,6 +55,12 @@ void place(Scene& scene, Mesh mesh, const Material& material, const glm::dmat4& 
   scene.instances.add(instance);
 }
 
+glm::dmat4 translation(dvec3 to) {
+  glm::dmat4 m(1);
+  m[3] = glm::dvec4(to, 1);
+  return m;
+}
+
 void addLight(Scene& scene, Light light, dvec3 position, dvec3 direction) {
   const dvec3 back = glm::normalize(direction) * -1.0;
   const dvec3 right = glm::normalize(glm::cross(std::abs(back.y) < 0.9 ? dvec3(0, 1, 0) : dvec3(1, 0, 0), back));
@@ -76,13 +83,13 @@ dvec3 Picture::at(int x, int y) const {
   return dvec3(image.u8()[i], image.u8()[i + 1], image.u8()[i + 2]) / 255.0;
 }
 
-Result<Picture> draw(const ProcAddress& gl, Renderer& renderer, const Scene& scene, const View& view, glm::ivec2 size, RenderRequest request, const Quality& quality) {
+Result<Picture> draw(Studio& studio, const Scene& scene, std::span<const View> views, glm::ivec2 size, RenderRequest request, const Quality& quality) {
   request.output = quality.exposureEv ? Output::Display : Output::Linear;
   request.countNonfinite = true;
-  auto target = OffscreenTarget::create(gl, size, request.output);
+  auto target = OffscreenTarget::create(studio.gl, size, request.output);
   if (!target) return fail(target.error());
-  auto stats = renderer.render(scene, {&view, 1}, (*target)->target(), quality, request);
-  renderer.release(scene);
+  auto stats = studio.renderer.render(scene, views, (*target)->target(), quality, request);
+  studio.renderer.release(scene);
   if (!stats) return fail(stats.error());
   if (!stats->glErrors.empty()) return fail("OpenGL", stats->glErrors.front());
   auto image = (*target)->read();
@@ -95,6 +102,37 @@ Result<Picture> draw(const ProcAddress& gl, Renderer& renderer, const Scene& sce
         p.nonfinite += !(std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z));
       }
   return p;
+}
+
+double brightest(const Picture& picture) {
+  double most = 0;
+  for (int y = 0; y < picture.image.height; ++y)
+    for (int x = 0; x < picture.image.width; ++x)
+      for (int c = 0; c < 3; ++c)
+        if (const double v = picture.at(x, y)[c]; !(v <= most)) most = v;
+  return most;
+}
+
+double largestShare(const Picture& picture, const Picture& other) {
+  double largest = 0;
+  for (int y = 0; y < picture.image.height; ++y)
+    for (int x = 0; x < picture.image.width; ++x)
+      for (int c = 0; c < 3; ++c) {
+        const double p = picture.at(x, y)[c], q = other.at(x, y)[c];
+        if (p == q) continue;
+        if (const double share = std::abs(p - q) / std::max(q, 1e-12); !(share <= largest)) largest = share;
+      }
+  return largest;
+}
+
+Ray rayThrough(const View& view, glm::ivec2 size, double x, double y) {
+  const double u = 2 * x / size.x - 1, v = 1 - 2 * y / size.y, aspect = double(size.x) / size.y;
+  if (view.orthographic) {
+    const double h = double(view.height) / 2;
+    return {view.eye + view.axes[0] * (u * h * aspect) + view.axes[1] * (v * h), -view.axes[2]};
+  }
+  const double t = std::tan(double(view.fovY) / 2);
+  return {view.eye, glm::normalize(view.axes[0] * (u * t * aspect) + view.axes[1] * (v * t) - view.axes[2])};
 }
 
 }  // namespace burnish::stability

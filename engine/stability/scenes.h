@@ -1,6 +1,6 @@
 // Small scenes and pictures for the hard cases.
 #pragma once
-#include <burnish/renderer.h>
+#include "stability/cases.h"
 
 namespace burnish::stability {
 
@@ -11,6 +11,7 @@ Mesh quad(glm::vec3 center, glm::vec3 u, glm::vec3 v);
 /// A 2x2 map B: flat normals, roughness 1.
 Texture flatNormals();
 void place(Scene& scene, Mesh mesh, const Material& material, const glm::dmat4& local = glm::dmat4(1));
+glm::dmat4 translation(glm::dvec3 to);
 /// At `position`, shining along `direction`.
 void addLight(Scene& scene, Light light, glm::dvec3 position, glm::dvec3 direction = {0, 0, -1});
 void addLight(Scene& scene, LightKind kind, float intensity, glm::dvec3 position, glm::dvec3 direction = {0, 0, -1});
@@ -22,6 +23,20 @@ struct Picture {
   [[nodiscard]] glm::dvec3 at(int x, int y) const;
 };
 /// With Quality::exposureEv the picture is for a display, without it linear radiance.
-Result<Picture> draw(const ProcAddress& gl, Renderer& renderer, const Scene& scene, const View& view, glm::ivec2 size, RenderRequest request, const Quality& quality = {});
+Result<Picture> draw(Studio& studio, const Scene& scene, std::span<const View> views, glm::ivec2 size, RenderRequest request, const Quality& quality = {});
+inline Result<Picture> draw(Studio& studio, const Scene& scene, const View& view, glm::ivec2 size, const RenderRequest& request, const Quality& quality = {}) {
+  return draw(studio, scene, {&view, 1}, size, request, quality);
+}
+
+/// The brightest value of any channel.
+double brightest(const Picture& picture);
+/// The largest difference of a channel over the other's value there.
+double largestShare(const Picture& picture, const Picture& other);
+
+struct Ray {
+  glm::dvec3 origin, direction;  ///< direction: unit length
+};
+/// The ray through a point of the picture (pixels from the top left corner; centres at .5) of a view that fills it.
+Ray rayThrough(const View& view, glm::ivec2 size, double x, double y);
 
 }  // namespace burnish::stability

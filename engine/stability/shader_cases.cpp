@@ -16,7 +16,7 @@ gl::ProgramSource sourceOf(const std::string& expression) { return {"shader case
 
 }  // namespace
 
-ShaderCases::ShaderCases(gl::Device& device) : device_(device), programs_(device, gl::ShaderLibrary(std::filesystem::path())) {}
+ShaderCases::ShaderCases(gl::Device& device, std::filesystem::path shaderOverride) : device_(device), programs_(device, gl::ShaderLibrary(std::move(shaderOverride))) {}
 
 Result<std::vector<glm::vec4>> ShaderCases::evaluate(std::span<const ShaderCase> cases, const std::string& expression) {
   std::vector<glm::vec4> results;

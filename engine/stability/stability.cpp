@@ -2,8 +2,11 @@
 #include <burnish/measure.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
-#include <optional>
+#include <cstdlib>
+#include <iterator>
+#include <set>
 
 #include "stability/cases.h"
 
@@ -36,12 +39,73 @@ struct Steps {
   }
 };
 
+template <class Case>
+void append(std::vector<Case>& all, std::vector<Case> more) {
+  all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+}
+template <class Case>
+std::vector<Case> chosen(std::vector<Case> all, const StabilityOptions& options) {
+  std::erase_if(all, [&](const Case& c) {
+    if (!options.cases.empty() && std::find(options.cases.begin(), options.cases.end(), c.id) == options.cases.end()) return true;
+    if constexpr (requires { c.slow; }) return options.quick && c.slow;
+    return false;
+  });
+  return all;
+}
+std::vector<stability::TextCase> allText() {
+  auto all = stability::textCases();
+  append(all, stability::modelTextCases());
+  append(all, stability::probeTextCases());
+  return all;
+}
+std::vector<stability::OracleCase> allOracle() {
+  auto all = stability::oracleCases();
+  append(all, stability::filterOracleCases());
+  return all;
+}
+std::vector<stability::PictureCase> allPictures() {
+  auto all = stability::pictureCases();
+  append(all, stability::placePictureCases());
+  append(all, stability::bakePictureCases());
+  append(all, stability::filterPictureCases());
+  append(all, stability::screenPictureCases());
+  append(all, stability::surfacePictureCases());
+  return all;
+}
+
+/// All variants of a text case on the GPU; the worst one counts.
+StabilityCase onGpu(stability::ShaderCases& evaluator, const stability::TextCase& c, std::string_view backend) {
+  Finding worst;
+  bool first = true;
+  for (const stability::TextVariant& v : c.variants) {
+    auto results = evaluator.evaluate(c.inputs, v.glsl);
+    if (!results) return failedRow(c.id, c.what, backend, c.bound, results.error());
+    const std::vector<glm::dvec4> values(results->begin(), results->end());
+    keepWorst(worst, c.judge(c.inputs, values), v.name, first);
+    first = false;
+  }
+  return rowOf(c.id, c.what, std::string(backend), c.bound, worst);
+}
+
 }  // namespace
 
-std::vector<StabilityCase> stabilityOnCpu(const MeasureProgress& progress) {
-  const auto text = stability::textCases();
-  const auto oracle = stability::oracleCases();
-  Steps steps{progress, int(text.size() + oracle.size())};
+std::vector<std::string> stabilityIds() {
+  std::set<int> numbers;
+  const auto add = [&](const auto& cases) {
+    for (const auto& c : cases) numbers.insert(std::atoi(c.id.c_str() + 1));
+  };
+  add(allText());
+  add(allOracle());
+  add(allPictures());
+  std::vector<std::string> ids;
+  for (const int n : numbers) ids.push_back(fmt::format("H{}", n));
+  return ids;
+}
+
+std::vector<StabilityCase> stabilityOnCpu(const StabilityOptions& options) {
+  const auto text = chosen(allText(), options);
+  const auto oracle = chosen(allOracle(), options);
+  Steps steps{options.progress, int(text.size() + oracle.size())};
   std::vector<StabilityCase> rows;
   for (const stability::TextCase& c : text) {
     steps.next(c.what);
@@ -67,42 +131,32 @@ std::vector<StabilityCase> stabilityOnCpu(const MeasureProgress& progress) {
   return rows;
 }
 
-std::vector<StabilityCase> stabilityOnGpu(const ProcAddress& getProcAddress, std::string_view backend, const MeasureProgress& progress) {
-  const auto text = stability::textCases();
-  const auto pictures = stability::pictureCases();
-  Steps steps{progress, int(text.size() + pictures.size())};
+std::vector<StabilityCase> stabilityOnGpu(const ProcAddress& getProcAddress, std::string_view backend, const StabilityOptions& options) {
+  const auto text = chosen(allText(), options);
+  const auto pictures = chosen(allPictures(), options);
+  Steps steps{options.progress, int(text.size() + pictures.size())};
   std::vector<StabilityCase> rows;
   auto device = gl::Device::create(getProcAddress, false);
-  RendererOptions options;
-  options.debugOutput = true;
-  auto renderer = Renderer::create(getProcAddress, options);
+  RendererOptions rendering;
+  rendering.debugOutput = true;
+  rendering.shaderOverride = options.shaderOverride;
+  auto renderer = Renderer::create(getProcAddress, rendering);
   if (!device || !renderer) {
     rows.push_back(failedRow("H28", "a renderer can be made", backend, 0, device ? renderer.error() : device.error()));
     return rows;
   }
   {
-    stability::ShaderCases evaluator(**device);
+    stability::ShaderCases evaluator(**device, options.shaderOverride);
     for (const stability::TextCase& c : text) {
       steps.next(c.what);
-      Finding worst;
-      std::optional<Error> error;
-      bool first = true;
-      for (const stability::TextVariant& v : c.variants) {
-        auto results = evaluator.evaluate(c.inputs, v.glsl);
-        if (!results) {
-          error = results.error();
-          break;
-        }
-        const std::vector<glm::dvec4> values(results->begin(), results->end());
-        keepWorst(worst, c.judge(c.inputs, values), v.name, first);
-        first = false;
-      }
-      rows.push_back(error ? failedRow(c.id, c.what, backend, c.bound, *error) : rowOf(c.id, c.what, std::string(backend), c.bound, worst));
+      rows.push_back(onGpu(evaluator, c, backend));
     }
   }
+  gl::ProgramCache programs(**device, gl::ShaderLibrary(options.shaderOverride));
+  stability::Studio studio{getProcAddress, **device, programs, **renderer};
   for (const stability::PictureCase& c : pictures) {
     steps.next(c.what);
-    auto found = c.measure(getProcAddress, **renderer);
+    auto found = c.measure(studio);
     rows.push_back(found ? rowOf(c.id, c.what, std::string(backend), c.bound, *found) : failedRow(c.id, c.what, backend, c.bound, found.error()));
   }
   return rows;

@@ -1,5 +1,5 @@
-// Fills the G-buffer: RT0 albedo (square root) + substance code, RT1 octahedral normal 2x12 + log-alpha code, then baked ambient occlusion and shading/detail.h's four bytes, if there.
-// Definitions: GENERAL, ALPHA_TEST, OCCLUSION (gbuffer/fetch.glsl; 0: no target for it), SPECULAR_ANTIALIASING (likewise), ANISOTROPIC, ROUGH_DIFFUSE (1: the surface's; either writes the target of details).
+// Fills the G-buffer: RT0 albedo (square root) + substance code, RT1 octahedral normal + log-alpha code (interface/stored_normal.glsl), then baked ambient occlusion and shading/detail.h's four bytes, if there.
+// Definitions: NORMAL_STORAGE, GENERAL, ALPHA_TEST, OCCLUSION (gbuffer/fetch.glsl; 0: no target for it), SPECULAR_ANTIALIASING (likewise), ANISOTROPIC, ROUGH_DIFFUSE (1: the surface's; either writes the target of details).
 #include "shading/bridge.h"
 #include "shading/constants.h"
 #include "shading/rungs.h"
@@ -12,6 +12,7 @@
 #include "shading/detail.h"
 #endif
 #include "interface/layout.h"
+#include "interface/stored_normal.glsl"
 #include "gbuffer/fetch.glsl"
 
 layout(location = 0) out vec4 outAlbedoSubstance;
@@ -26,12 +27,12 @@ layout(location = OCCLUSION == 0 ? 2 : 3) out vec4 outDetail;
 void main() {
   Fetched f = fetchMaterial();
   outAlbedoSubstance = vec4(encodeAlbedo(f.albedo), f.code);
-  outNormalRoughness = vec4(packNormal(f.normal), encodeAlpha(storedAlpha(f.alpha)));
+  outNormalRoughness = vec4(storeNormal(f.normal), encodeAlpha(storedAlphaBeside(f.alpha, NORMAL_VARIANCE)));
 #if OCCLUSION
   outOcclusion = f.occlusion;
 #endif
 #if ANISOTROPIC
-  outDetail = packDetail(unpackNormal(outNormalRoughness.rgb), brushedTangent(), brushedAlphaX(f.alpha), ROUGH_DIFFUSE == 1 ? material.attenuation.w : 0.0);
+  outDetail = packDetailCode(storedNormal(outNormalRoughness), brushedTangent(), encodeAlpha(storedAlphaBeside(brushedAlphaX(f.alpha), NORMAL_VARIANCE)), ROUGH_DIFFUSE == 1 ? material.attenuation.w : 0.0);
 #elif ROUGH_DIFFUSE
   outDetail = vec4(0.0, 0.0, 0.0, material.attenuation.w);
 #endif

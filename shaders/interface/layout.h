@@ -77,6 +77,7 @@ struct FrameData {
   vec4 environment;      // x last level of the prefiltered cube; y number of point and spot lights (forward path); z radius of screen-space occlusion (m), w its bound on the screen (pixels)
   vec4 background;       // rgb pre-exposed background colour; w scale of the environment cube
   ivec4 viewport;        // x, y, width, height in pixels
+  ivec4 target;          // the same on the target, where it is larger if pixels are shaded at a smaller size
   vec4 irradiance[9];    // pre-exposed irradiance/pi of the surroundings, SH L2 with all constants folded in (shading/environment.h)
   vec4 fog;              // x extinction (1/m) at the reference height, y its falloff (1/m), z height of the eye above that (m), w metres that are clear
   vec4 fogLight[5];      // pre-exposed radiance that fog shows: constant, along y, z, x; rgb albedo, w mean cosine of its scattering

@@ -1,5 +1,6 @@
 // From the G-buffer to a Surface: position, view vector and material at the current fragment.
-// Definitions: ORTHOGRAPHIC, OCCLUSION, DETAIL (1: there is a target for brushed and rough surfaces).
+// Definitions: NORMAL_STORAGE, ORTHOGRAPHIC, OCCLUSION, DETAIL (1: there is a target for brushed and rough surfaces).
+#include "interface/stored_normal.glsl"
 layout(std140, binding = BINDING_FRAME) uniform Frame { FrameData frame; };
 layout(binding = UNIT_GBUFFER_A) uniform sampler2D gbufferA;
 layout(binding = UNIT_GBUFFER_B) uniform sampler2D gbufferB;
@@ -23,11 +24,11 @@ vec3 positionAt(vec2 pixel, float z, vec4 origin, vec4 x, vec4 y, out vec3 toEye
 #endif
 }
 
-Surface surfaceAt(vec4 a, vec4 b, vec3 toEye) { return makeSurface(unpackNormal(b.rgb), toEye, decodeAlbedo(a.rgb), a.a, decodeAlpha(b.a)); }
+Surface surfaceAt(vec4 a, vec4 b, vec3 toEye) { return makeSurface(storedNormal(b), toEye, decodeAlbedo(a.rgb), a.a, decodeAlpha(b.a)); }
 
 #if DETAIL
 Surface surfaceAt(vec4 a, vec4 b, vec4 d, vec3 toEye) {
-  vec3 n = unpackNormal(b.rgb);
+  vec3 n = storedNormal(b);
   Surface m = makeSurface(n, toEye, decodeAlbedo(a.rgb), a.a, decodeAlpha(b.a));
   setWidth(m, unpackTangent(n, d), decodeAlpha(d.b));
   m.sigma = d.a;

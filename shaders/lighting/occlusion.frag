@@ -1,11 +1,12 @@
 // Ambient occlusion from depth and the stored normal (shading/occlusion.h): SLICES slices, STEPS samples to either side of each. Slices turn and samples move in a pattern of 4 x 4
 // pixels, which the denoise pass averages: 16 times as many directions. Writes visible over seeable, and the weight (what is seeable) that it has in a mean.
-// Definitions: ORTHOGRAPHIC, SLICES, STEPS.
+// Definitions: NORMAL_STORAGE, ORTHOGRAPHIC, SLICES, STEPS.
 #include "shading/bridge.h"
 #include "shading/constants.h"
 #include "shading/normals.h"
 #include "shading/occlusion.h"
 #include "interface/layout.h"
+#include "interface/stored_normal.glsl"
 layout(std140, binding = BINDING_FRAME) uniform Frame { FrameData frame; };
 layout(binding = UNIT_GBUFFER_B) uniform sampler2D gbufferB;
 layout(binding = UNIT_DEPTH) uniform sampler2D gbufferDepth;
@@ -30,8 +31,8 @@ void main() {
   ivec2 q = ivec2(gl_FragCoord.xy), own = q - frame.viewport.xy;
   float z = texelFetch(gbufferDepth, q, 0).r;
   vec4 b = texelFetch(gbufferB, q, 0);
-  // Sky, and the host's own pixels (gbuffer/geometry_pass.cpp): nothing to see, no weight.
-  if (z <= 0.0 || b.rgb == vec3(1.0)) {
+  // Sky, and the host's own pixels: nothing to see, no weight.
+  if (z <= 0.0 || isHostPixel(b)) {
     outOcclusion = vec2(1.0, 0.0);
     return;
   }
@@ -43,7 +44,7 @@ void main() {
   vec3 v = p * -inversesqrt(dot(p, p));
   float footprint = viewRay.z * -p.z;
 #endif
-  vec3 world = unpackNormal(b.rgb);
+  vec3 world = storedNormal(b);
   vec3 n = vec3(dot(world, viewAxes[0].xyz), dot(world, viewAxes[1].xyz), dot(world, viewAxes[2].xyz));
   // As makeSurface: a normal that looks away is bent until it is perpendicular.
   float nov = dot(n, v);

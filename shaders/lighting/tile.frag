@@ -1,5 +1,5 @@
 // Shades the tiles: directional lights, the tile's point and spot lights, and the surroundings. Writes pre-exposed radiance.
-// Definitions: FOG (1: it lies before the surface: interface/fog.glsl), TILE_LIGHTS, DIRECTIONAL (count), ORTHOGRAPHIC, those of interface/shadow.glsl (SHADOW 0: none), DETAIL (1: the tile may show brushed or rough surfaces, which the target
+// Definitions: NORMAL_STORAGE, FOG (1: it lies before the surface: interface/fog.glsl), TILE_LIGHTS, DIRECTIONAL (count), ORTHOGRAPHIC, those of interface/shadow.glsl (SHADOW 0: none), DETAIL (1: the tile may show brushed or rough surfaces, which the target
 // for them describes), IN_PLACE (1: writes what the display takes, not radiance; TONEMAP) and those of lighting/shade.glsl.
 #define ENVIRONMENT_UNIT UNIT_ENVIRONMENT
 #include "shading/bridge.h"

@@ -1,4 +1,4 @@
-// Debug views of the G-buffer. Definitions: VIEW (1 albedo, 2 substance, 3 normal, 4 roughness, 5 depth, 6 position, 7 occlusion, 9 nonfinite, 10 anisotropy, 11 diffuse roughness), ORTHOGRAPHIC, DETAIL, OCCLUSION, GEOMETRY (0: nothing was drawn).
+// Debug views of the G-buffer. Definitions: NORMAL_STORAGE, VIEW (1 albedo, 2 substance, 3 normal, 4 roughness, 5 depth, 6 position, 7 occlusion, 9 nonfinite, 10 anisotropy, 11 diffuse roughness), ORTHOGRAPHIC, DETAIL, OCCLUSION, GEOMETRY (0: nothing was drawn).
 #include "shading/bridge.h"
 #include "shading/constants.h"
 #include "shading/roughness.h"
@@ -31,7 +31,7 @@ void main() {
 #elif VIEW == 2
     c = substanceF0(a.a, decodeAlbedo(a.rgb));
 #elif VIEW == 3
-    vec3 n = unpackNormal(b.rgb);
+    vec3 n = storedNormal(b);
     c = vec3(linearFromSrgb(n.x * 0.5 + 0.5), linearFromSrgb(n.y * 0.5 + 0.5), linearFromSrgb(n.z * 0.5 + 0.5));
 #elif VIEW == 4
     c = vec3(linearFromSrgb(sqrt(decodeAlpha(b.a))));
@@ -49,7 +49,7 @@ void main() {
 #elif VIEW == 10 && DETAIL
     // The direction that it is brushed along, as a line has it (no sign), as bright as the lobe is long; black: a round one.
     Surface m = surfaceAt(a, b, texelFetch(gbufferD, q, 0), vec3(0.0, 0.0, 1.0));
-    vec3 along = abs(unpackTangent(unpackNormal(b.rgb), texelFetch(gbufferD, q, 0))) * sqrt(1.0 - m.alphaY / m.alphaX);
+    vec3 along = abs(unpackTangent(storedNormal(b), texelFetch(gbufferD, q, 0))) * sqrt(1.0 - m.alphaY / m.alphaX);
     c = vec3(linearFromSrgb(along.x), linearFromSrgb(along.y), linearFromSrgb(along.z));
 #elif VIEW == 11 && DETAIL
     c = vec3(linearFromSrgb(texelFetch(gbufferD, q, 0).a));

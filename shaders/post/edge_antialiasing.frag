@@ -16,7 +16,7 @@ layout(location = 0) out vec4 outColor;
 vec2 scale;
 
 float lumaAt(vec2 at) {
-  vec4 edge = vec4(frame.viewport.xy, frame.viewport.xy + frame.viewport.zw) + vec4(0.5, 0.5, -0.5, -0.5);
+  vec4 edge = vec4(frame.target.xy, frame.target.xy + frame.target.zw) + vec4(0.5, 0.5, -0.5, -0.5);
   return textureLod(display, clamp(at, edge.xy, edge.zw) * scale, 0.0).a;
 }
 float own(float luma, float middle) {
@@ -78,6 +78,6 @@ void main() {
   bool covers = (end < 0.0) != (m < edge) && abs(end) >= threshold && !((next < 0.0) == (end < 0.0) && abs(next) >= threshold);
   if (covers) share = max(share, 0.5 - min(a, b) / (a + b));
 
-  vec3 there = texelFetch(display, clamp(ivec2(p + toOther), frame.viewport.xy, frame.viewport.xy + frame.viewport.zw - 1), 0).rgb;
+  vec3 there = texelFetch(display, clamp(ivec2(p + toOther), frame.target.xy, frame.target.xy + frame.target.zw - 1), 0).rgb;
   outColor.rgb = sqrt(mix(here.rgb * here.rgb, there * there, share));
 }

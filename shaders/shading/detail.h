@@ -9,9 +9,9 @@ FN real lineCode(real x, real y) {
   return R(0.5) + R(0.5) * along / sum;
 }
 
-// n: the normal as it is read back, unpackNormal(packNormal(n)). alphaX: along the tangent; without a tangent the surface is isotropic. Channel values k/255 but for the last two, which
+// n: the normal as it is read back, unpackNormal(packNormal(n)). alphaX, or its code: along the tangent; without a tangent the surface is isotropic. Channel values k/255 but for the last two, which
 // rounding to a byte makes so. Half a step of the direction is 3.1e-5 radians at most, of alpha 1.6 %, of sigma 0.002.
-FN vec4 packDetail(vec3 n, vec3 tangent, real alphaX, real sigma) {
+FN vec4 packDetailCode(vec3 n, vec3 tangent, real alphaCode, real sigma) {
   vec3 t;
   vec3 b;
   basisFrom(n, t, b);
@@ -20,8 +20,9 @@ FN vec4 packDetail(vec3 n, vec3 tangent, real alphaX, real sigma) {
   if (line < R(0.0)) return vec4(R(0.0), R(0.0), R(0.0), unitClamp(sigma));
   real code = floor(line * R(65535.0) + R(0.5));
   real high = floor(code / R(256.0));
-  return vec4(high / R(255.0), (code - high * R(256.0)) / R(255.0), encodeAlpha(storedAlpha(alphaX)), unitClamp(sigma));
+  return vec4(high / R(255.0), (code - high * R(256.0)) / R(255.0), alphaCode, unitClamp(sigma));
 }
+FN vec4 packDetail(vec3 n, vec3 tangent, real alphaX, real sigma) { return packDetailCode(n, tangent, encodeAlpha(storedAlpha(alphaX)), sigma); }
 
 // Unit.
 FN vec3 unpackTangent(vec3 n, vec4 d) {

@@ -47,3 +47,26 @@ FN vec3 unpackNormal(vec3 rgb) {
   real vh = high - uh * R(16.0);
   return octahedralDecode(vec2((rgb.x * R(255.0) + uh * R(256.0)) * (R(1.0) / R(2047.0)) - R(1.0), (rgb.y * R(255.0) + vh * R(256.0)) * (R(1.0) / R(2047.0)) - R(1.0)));
 }
+
+// With other numbers of bits, a channel each: codes run 0..2 middle, so that -1, 0 and 1 are exact. Returns channel values k/last.
+FN vec2 packOctahedral(vec3 n, real middle, real last) {
+  vec2 e = octahedralEncode(n);
+  return vec2(floor((e.x + R(1.0)) * middle + R(0.5)) / last, floor((e.y + R(1.0)) * middle + R(0.5)) / last);
+}
+
+FN vec3 unpackOctahedral(vec2 c, real middle, real last) {
+  return octahedralDecode(vec2(floor(c.x * last + R(0.5)) / middle - R(1.0), floor(c.y * last + R(0.5)) / middle - R(1.0)));
+}
+
+// Their mean square errors (rad²) are that of 12 bits by the square of a code's step, and so the alpha to store beside a normal that is rounded so (roughness.h, storedAlpha).
+#define BURNISH_NORMAL_VARIANCE_8 (BURNISH_NORMAL_VARIANCE * R(2047.0 / 127.0) * R(2047.0 / 127.0))
+#define BURNISH_NORMAL_VARIANCE_16 (BURNISH_NORMAL_VARIANCE * R(2047.0 / 32767.0) * R(2047.0 / 32767.0))
+FN real storedAlphaBeside(real alpha, real variance) { return sqrt(max(alpha * alpha - variance, BURNISH_ALPHA_MIN * BURNISH_ALPHA_MIN)); }
+
+// 2 × 8 bits in two 8-bit channels, codes 0..254.
+FN vec2 packNormal8(vec3 n) { return packOctahedral(n, R(127.0), R(255.0)); }
+FN vec3 unpackNormal8(vec2 c) { return unpackOctahedral(c, R(127.0), R(255.0)); }
+
+// 2 × 16 bits in two 16-bit channels, codes 0..65534.
+FN vec2 packNormal16(vec3 n) { return packOctahedral(n, R(32767.0), R(65535.0)); }
+FN vec3 unpackNormal16(vec2 c) { return unpackOctahedral(c, R(32767.0), R(65535.0)); }

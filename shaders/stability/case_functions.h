@@ -77,3 +77,18 @@ FN vec3 ambientBoxCase(vec3 n, int tap, vec3 c0, vec3 c1, vec3 c2, vec3 c3) {
   vec3 d = ambientTap(tap);
   return irradianceBands(d, c0, c1, c2, c3, c1, c2, c3, c0, c1) * ambientTapWeight(dot(n, d));
 }
+
+// Shares of two boxes around p and the sky's, and 1 where p lies in a box. Boxes: half sizes along the axes; w: fade along each of them, and margin.
+FN vec4 blendCase(vec3 p, vec4 first, vec3 firstCenter, vec4 second, vec3 secondCenter) {
+  ProbeBlend b = beginBlend();
+  addToBlend(b, 0, p - firstCenter, vec3(first), vec3(first.w), first.w);
+  addToBlend(b, 1, p - secondCenter, vec3(second), vec3(second.w), second.w);
+  endBlend(b);
+  return vec4(b.weight.x, b.weight.y, b.sky, b.inside ? R(1.0) : R(0.0));
+}
+
+// The roughness with which a place is looked up along d, and the direction; capture: the place's, in the box's axes.
+FN vec4 lookupCase(vec3 p, vec3 d, vec3 extent, vec3 capture, real roughness) {
+  vec3 hit = probeHit(p, d, extent);
+  return vec4(probeDirection(hit, d, capture), probeRoughness(roughness, p, hit, capture));
+}

@@ -73,6 +73,12 @@ const std::map<std::string, const char*> kElsewhere = {
     {"antialiasing=edge", "a pass (tests/render)"},
     {"antialiasing=temporal", "passes (tests/render); their functions have rows"},
     {"specular-antialiasing=none", "the term left out"},
+    {"normal-storage=oct-8", "a format (tests/render); its functions have rows"},
+    {"normal-storage=oct-12", "a format (tests/render); its functions have rows"},
+    {"normal-storage=oct-16", "a format (tests/render); its functions have rows"},
+    {"light-buffer=r11g11b10", "a format (tests/render)"},
+    {"light-buffer=rgba16f", "a format (tests/render)"},
+    {"light-buffer=rgba32f", "a format (tests/render)"},
     {"bloom=none", "the term left out"},
     {"bloom=scatter", "a pass (tests/render)"},
 };

@@ -6,17 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "reference/shading.h"
+#include "stability/case_text.h"
 #include "stability/shader_cases.h"
-
-// NOLINTBEGIN
-namespace burnish::shading::f32 {
-#include "stability/case_functions.h"
-}
-namespace burnish::shading::f64 {
-#include "stability/case_functions.h"
-}
-// NOLINTEND
 
 namespace burnish::test {
 

@@ -117,8 +117,11 @@ void addSpecular(std::vector<Row>& rows) {
   rows.push_back({"decodeAlbedo", {}, &kMaps, TEXT(vec4(decodeAlbedo(vec3(a)), R(0.0))), {}, 0, ulp(), 3, within(0, 1)});
   rows.push_back({"octahedralEncode, octahedralDecode", {}, &kVectors, TEXT(vec4(octahedralDecode(octahedralEncode(vec3(a))), R(0.0))), {}, 0, absolute(), 1e-6, within(-1, 1)});
   rows.push_back({"unpackNormal", {}, &kBytes, TEXT(vec4(unpackNormal(vec3(a)), R(0.0))), {}, 0, absolute(), 2e-6, within(-1, 1)});
+  rows.push_back({"unpackNormal8", {}, &kBytes, TEXT(vec4(unpackNormal8(vec2(a.x, a.y)), R(0.0))), {}, 0, absolute(), 2e-6, within(-1, 1)});
+  rows.push_back({"unpackNormal16, unpackOctahedral", {}, &kMaps, TEXT(vec4(unpackNormal16(vec2(b.x, b.y)), R(0.0))), {}, 0, absolute(), 1e-4, within(-1, 1)});  // a tie between two codes is a step
   // A step of the tangent's code is 4.8e-5 radians, and the normal's a step of its own.
   rows.push_back({"packDetail, unpackTangent", {}, &kDetails, TEXT(detailCase(vec3(a), vec3(b), unitClamp(a.w), b.w)), {}, 0, absolute(), 2e-4, ranges({0, 1 + 1e-5}, {4e-4 * (1 - 1e-5), 1 + 1e-5}, {0, 1}, {-1e-5, 1e-5})});
+  rows.push_back({"packNormal8, packNormal16, packOctahedral", {}, &kVectors, TEXT(vec4(packNormal8(vec3(a)).x, packNormal8(vec3(a)).y, packNormal16(vec3(a)).x, packNormal16(vec3(a)).y)), {}, 0, absolute(), 1.01 / 255, within(0, 1)});
   rows.push_back({"packNormal", {}, &kVectors, TEXT(vec4(packNormal(vec3(a)), R(0.0))), {}, 0, absolute(), 1.01, within(0, 1)});  // a step of the code moves a byte by its whole range
 }
 

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "grid_sampler.h"
+#include "stability/two_rooms.h"
 
 using namespace burnish;
 using namespace burnish::test;
@@ -12,38 +13,10 @@ using glm::dvec3;
 
 namespace {
 
-/// Two rooms of 2 m x 2 m x 2 m side by side along `axis` of `frame`: the lit one below 0, the dark one above `thickness`.
-struct Rooms {
-  int axis;
-  double thickness;
-  glm::dmat3 frame{1};
-  /// In the rooms' own axes.
-  [[nodiscard]] dvec3 place(double along, double u, double v) const {
-    dvec3 p;
-    p[axis] = along, p[(axis + 1) % 3] = u, p[(axis + 2) % 3] = v;
-    return p;
-  }
-  [[nodiscard]] std::vector<Solid> solids() const {
-    std::vector<Solid> all = roomOf(place(-2, 0, 0), place(2 + thickness, 2, 2), 0.2);
-    all.push_back({place(0, -0.1, -0.1), place(thickness, 2.1, 2.1)});
-    return all;
-  }
-};
-
-/// Spacing 0.49 m, so that 5 points stand across a room; `offset` moves them along the axis, `turn` (radians) turns the lattice against the rooms.
-AmbientGrid latticeOver(const Rooms& rooms, double offset, double turn) {
-  AmbientGrid grid;
-  grid.spacing = dvec3(0.49);
-  const dvec3 around = rooms.place(0, 1, 0);
-  grid.axes = rooms.frame * glm::dmat3(glm::rotate(glm::dmat4(1), turn, around));
-  const int more = turn != 0 ? 3 : 0;  // along what is turned
-  grid.counts = glm::ivec3(rooms.place(10 + more, 5, 5 + more));
-  const dvec3 middle = rooms.place(rooms.thickness / 2 + offset, 1, 1);
-  grid.origin = rooms.frame * middle - grid.axes * (dvec3(grid.counts - 1) * grid.spacing * 0.5);
-  fillGrid(
-      grid, rooms.solids(), [&](const dvec3& p) { return std::array<dvec3, 9>{dvec3(dot(p, rooms.frame[rooms.axis]) < 0 ? 1.0 : 0.0)}; }, rooms.frame);
-  return grid;
-}
+using Rooms = stability::TwoRooms;
+using stability::latticeOver;
+using stability::onSurfaces;
+constexpr int kSteps = 48;
 
 struct Leak {
   double sum = 0, worst = 0;  ///< of the lit side's light
@@ -56,21 +29,6 @@ struct Leak {
     without += share < 0.99;
   }
 };
-
-/// On the six surfaces of a room from `begin` along the axis.
-template <class F>
-void onSurfaces(const Rooms& rooms, double begin, F&& f) {
-  constexpr int kSteps = 48;
-  for (int i = 0; i < kSteps; ++i)
-    for (int j = 0; j < kSteps; ++j) {
-      const double a = 2 * (i + 0.5) / kSteps, b = 2 * (j + 0.5) / kSteps;
-      for (const double side : {0.0, 2.0}) {
-        f(rooms.frame * rooms.place(begin + side, a, b), rooms.frame * rooms.place(1 - side, 0, 0));
-        f(rooms.frame * rooms.place(begin + a, side, b), rooms.frame * rooms.place(0, 1 - side, 0));
-        f(rooms.frame * rooms.place(begin + a, b, side), rooms.frame * rooms.place(0, 0, 1 - side));
-      }
-    }
-}
 
 }  // namespace
 
@@ -86,7 +44,7 @@ TEST_CASE("H11: light of a lit room on the dark side of a wall") {
         const AmbientGrid grid = latticeOver(rooms, offset, turn);
         const GridSampler sampler(grid);
         Leak leak;
-        onSurfaces(rooms, thickness, [&](const dvec3& p, const dvec3& n) {
+        onSurfaces(rooms, thickness, kSteps, [&](const dvec3& p, const dvec3& n) {
           const GridLight l = sampler.at(p, n);
           leak.add(l.light.x, l.share);
           all.add(l.light.x, l.share);
@@ -98,7 +56,7 @@ TEST_CASE("H11: light of a lit room on the dark side of a wall") {
         CHECK(leak.over < 1e-3 * leak.count);
         CHECK(leak.without < 0.1 * leak.count);
         // And the dark room takes nothing from the lit one.
-        onSurfaces(rooms, -2, [&](const dvec3& p, const dvec3& n) {
+        onSurfaces(rooms, -2, kSteps, [&](const dvec3& p, const dvec3& n) {
           const GridLight l = sampler.at(p, n);
           lost.add(1 - l.light.x, l.share);
         });

@@ -7,6 +7,7 @@
 #include "prefilter/cube.h"
 #include "probe/bounce.h"
 #include "render/scenes.h"
+#include "stability/rooms.h"
 
 namespace burnish::test {
 
@@ -62,31 +63,10 @@ Image latLong(int width, F&& f) {
     }
   return image;
 }
-/// A room seen from inside: six walls (-X +X -Y +Y -Z +Z) of the materials.
-inline void addRoom(Scene& scene, vec3 low, vec3 high, const std::array<Material, 6>& walls) {
-  const Mesh whole = box(low, high, true);
-  for (std::uint32_t w = 0; w < 6; ++w) {
-    Mesh m;
-    for (std::uint32_t i = 0; i < 4; ++i) {
-      m.positions.push_back(whole.positions[4 * w + i]);
-      m.normals.push_back(whole.normals[4 * w + i]);
-      m.uv0.push_back(whole.uv0[4 * w + i]);
-    }
-    m.indices = {0, 1, 2, 0, 2, 3};
-    place(scene, std::move(m), walls[w]);
-  }
-}
+using stability::addRoom;
+using stability::probeIn;
+/// All six walls of one material.
 inline void addRoom(Scene& scene, vec3 low, vec3 high, const Material& material) { addRoom(scene, low, high, {material, material, material, material, material, material}); }
-
-
-/// A probe whose box is a room.
-inline ReflectionProbe probeIn(vec3 low, vec3 high, dvec3 capture) {
-  ReflectionProbe p;
-  p.center = (dvec3(low) + dvec3(high)) * 0.5;
-  p.halfSize = (dvec3(high) - dvec3(low)) * 0.5;
-  p.capture = capture;
-  return p;
-}
 
 /// A bake in memory: bounce after bounce, each lit by the one before.
 struct Bake {

@@ -19,7 +19,7 @@ import unittest
 import unittest.mock
 
 BURNISH = ""
-SUBCOMMANDS = ["render", "view", "plan", "bake", "prefilter", "inspect", "doctor", "stability"]
+SUBCOMMANDS = ["render", "view", "plan", "bake", "prefilter", "reference", "cost", "inspect", "doctor", "stability"]
 SANITIZED = os.environ.get("BURNISH_SANITIZED") == "1"
 RENDER_KEYS = ["schema_version", "backend", "renderer", "size", "frames", "timing_mode", "frame_ms", "frame_cpu_ms", "passes", "effects", "programs",
                "plan", "gbuffer_bytes_per_pixel", "texture_bytes", "nonfinite_pixels", "gl_errors", "warnings", "rungs"]
@@ -1100,6 +1100,104 @@ class Rungs(Program):
         self.assertEqual(report["rungs"]["geometry"], "smith")
         self.assertEqual(report["rungs"]["fresnel"], "schlick")
         self.assertEqual(set(report["rungs"]), set(self.listing()))
+
+
+class Cost(Program):
+    """What accuracy costs; tests/cost has the figures."""
+    def cost(self, *arguments):
+        return self.good("cost", self.scene, "-o", self.out, "--size", "48x32", "--rounds", "3", "--minutes", "3", "--no-choices", *arguments)
+
+    def test_a_term_is_measured_against_ground_truth(self):
+        result = self.cost("--term", "fresnel", "--term", "shadow", "--reference-spp", "4", "--json", self.folder / "copy.json")
+        report = json.loads((self.out / "cost.json").read_text())
+        self.assertEqual(report, json.loads((self.folder / "copy.json").read_text()))
+        self.assertEqual(report["schema_version"], 1)
+        self.assertLessEqual({"terms", "front", "machine", "base", "exact", "contributors", "command"}, set(report))
+        self.assertEqual((report["against"], report["clock"], report["size"]), ("ground truth", "CPU time", [48, 32]))
+        self.assertEqual([t["term"] for t in report["terms"]], ["fresnel"])
+        self.assertIn("shadow", [i["term"] for i in report["idle"]])
+        rungs = {r["rung"]: r for r in report["terms"][0]["rungs"]}
+        self.assertEqual(list(rungs), ["none", "schlick", "spherical-gaussian", "dielectric"])
+        for name, rung in rungs.items():
+            self.assertLessEqual({"rms", "psnr", "p999", "energy", "perceptual"}, set(rung["error"]))
+            self.assertGreater(rung["cpu_ms"], 0)
+            self.assertLessEqual(rung["spread"]["low"], rung["cpu_ms"])
+            self.assertGreaterEqual(rung["spread"]["high"], rung["cpu_ms"])
+            self.assertGreater(rung["error_truth"]["rms"], 0)
+            self.assertEqual(rung["error"]["rms"] == 0, name == "dielectric")
+            self.assertEqual(rung["in_force"], name == "schlick")
+            self.assertIn(name, result.stdout)
+        self.assertIn("preset exact", result.stdout)
+        self.assertTrue((self.out / "index.html").is_file())
+        self.assertTrue((self.out / "reference.exr").is_file())
+        # The reference is taken up again: no second one is traced.
+        before = (self.out / "reference.exr").read_bytes()
+        self.cost("--term", "lobe", "--reference", self.out / "reference.exr")
+        self.assertEqual((self.out / "reference.exr").read_bytes(), before)
+        again = json.loads((self.out / "cost.json").read_text())
+        self.assertEqual(again["base"]["error"], report["base"]["error"])
+
+    def test_errors(self):
+        self.bad(2, "cost", self.scene, says="--output")
+        self.bad(2, "cost", self.scene, "-o", self.out, "--term", "frensel", says=("frensel", "fresnel"))
+        self.bad(2, "cost", self.scene, "-o", self.out, "--rounds", "1", says="--rounds")
+        self.bad(2, "cost", self.scene, "-o", self.out, "--no-reference", "--reference-spp", "3", says="--reference-spp")
+        self.bad(1, "cost", self.scene, "-o", self.out, "--reference", self.folder / "none.exr", says="none.exr")
+        self.bad(1, "cost", self.folder / "none.gltf", "-o", self.out, says="none.gltf")
+        self.bad(1, "cost", self.scene, "-o", self.scene / "in", says="in")
+
+
+class Budget(Program):
+    """Quality files, and what burnish cost --budget writes."""
+    def quality(self, **parts):
+        file = self.folder / "q.json"
+        file.write_text(json.dumps({"schema_version": 1, **parts}))
+        return file
+
+    def rungs(self, *arguments):
+        return json.loads(self.good("render", self.scene, "--size", "16x16", "-o", self.out / "a.png", *arguments, "--json", "-").stdout)["rungs"]
+
+    def test_a_quality_file_is_rendered_with(self):
+        file = self.quality(base="seed", terms={"fresnel": "none"})
+        rungs = self.rungs("--quality", file)
+        self.assertEqual((rungs["fresnel"], rungs["geometry"], rungs["diffuse"]), ("none", "void", "lambert"))
+        self.assertEqual(self.rungs("--quality", file, "--set", "fresnel=dielectric")["fresnel"], "dielectric")
+        plan = json.loads(self.good("plan", self.scene, "--quality", self.quality(terms={"bloom": "scatter"}), "--json", "-").stdout)
+        self.assertTrue(next(e for e in plan["effects"] if e["name"] == "bloom")["on"])
+
+    def test_the_tone_map_of_the_file_gives_way_to_the_option(self):
+        def picture(*arguments):
+            file = self.out / "a.png"
+            self.good("render", self.scene, "--size", "48x48", "--exposure", "1", *arguments, "-o", file)
+            return file.read_bytes()
+        file = self.quality(tone_map="aces")
+        self.assertEqual(picture("--quality", file), picture("--tonemap", "aces"))
+        self.assertEqual(picture("--quality", file, "--tonemap", "agx"), picture("--tonemap", "agx"))
+        self.assertNotEqual(picture("--quality", file), picture())
+
+    def test_presets_and_files_are_told_apart(self):
+        (self.folder / "seed").write_text(json.dumps({"schema_version": 1, "terms": {"fresnel": "none"}}))
+        def fresnel(name):
+            result = subprocess.run([os.path.abspath(BURNISH), "render", str(self.scene), "--size", "16x16", "-o", str(self.out / "a.png"), "--quality", name, "--json", "-"],
+                                    cwd=self.folder, capture_output=True, text=True, timeout=300)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            return json.loads(result.stdout)["rungs"]["fresnel"]
+        self.assertEqual(fresnel("seed"), "schlick")
+        self.assertEqual(fresnel("./seed"), "none")
+        self.bad(2, "plan", self.scene, "--quality", "sead", says=("--quality", "did you mean 'seed'", "exact", "./sead"))
+
+    def test_faulty_quality_files_are_one_error(self):
+        self.bad(1, "plan", self.scene, "--quality", self.folder / "none.json", says="none.json")
+        self.bad(1, "plan", self.scene, "--quality", self.folder, says=str(self.folder))
+        file = self.quality(terms={"fresnel": "schlik"})
+        for command in ["plan"], ["render", "-o", self.out / "a.png"]:
+            self.bad(1, command[0], self.scene, *command[1:], "--quality", file, says=("q.json: /terms/fresnel", "did you mean 'schlick'"))
+        self.assertEqual(list(self.out.iterdir()), [])
+        file.write_text("{")
+        self.bad(1, "plan", self.scene, "--quality", file, says=("q.json", "not JSON"))
+        os.remove(file)
+        os.mkfifo(file)
+        self.bad(1, "plan", self.scene, "--quality", file, says="q.json")
 
 
 class Stability(Program):

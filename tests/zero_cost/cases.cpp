@@ -188,6 +188,7 @@ constexpr EffectCase kMotionVectors{"motion_vectors", [](Subject& s) { s.moves =
                                       s.quality.antialiasing = Antialiasing::Temporal;
                                       s.moves = true;
                                     }};
+constexpr EffectCase kUpscaling{"upscaling", [](Subject& s) { s.quality.resolutionScale = 1; }, [](Subject& s) { s.quality.resolutionScale = 0.5f; }};
 constexpr EffectCase kLinearOutput{"linear_output", [](Subject& s) { s.output = Output::Display; }, [](Subject& s) { s.output = Output::Linear; }};
 constexpr EffectCase kDebugView{"debug_view", [](Subject& s) { s.debugView = DebugView::Final; }, [](Subject& s) { s.debugView = DebugView::Normal; }};
 constexpr EffectCase kHostDepthIn{"host_depth_in", [](Subject& s) { s.hostDepthIn = false; }, [](Subject& s) { s.hostDepthIn = true; }};
@@ -223,6 +224,7 @@ constexpr EffectCase kCases[] = {
     kEdgeAntialiasing,
     kTemporalAntialiasing,
     kMotionVectors,
+    kUpscaling,
     kLinearOutput,
     kDebugView,
     kHostDepthIn,

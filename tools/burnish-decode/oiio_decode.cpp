@@ -39,6 +39,15 @@ bool agrees(const OIIO::ImageSpec& spec, const PictureHeader& header) {
           (spec.full_width == header.width && spec.full_height == header.height));
 }
 
+/// The first four at most. An EXR's further layers ("albedo.R") are no part of its picture where that has channels of its own: OpenImageIO puts those first.
+int channelsOf(const OIIO::ImageSpec& spec, const PictureHeader& header) {
+  const int most = std::min(spec.nchannels, 4);
+  if (header.format != PictureFormat::Exr) return most;
+  int own = 0;
+  while (own < most && spec.channelnames[std::size_t(own)].find('.') == std::string::npos) ++own;
+  return own > 0 ? own : most;
+}
+
 struct Rows {
   std::byte* data;
   std::size_t rowBytes, pixelBytes;
@@ -161,7 +170,7 @@ Result<Decoded> decodeThrowing(std::span<const std::byte> file, std::string_view
   if (!input->set_ioproxy(&memory) || !input->open("picture", spec, config)) return damaged(name, input->geterror());
   if (!agrees(spec, header)) return damaged(name, "its parts contradict its header");
 
-  const Source source{*input, spec, {header.width, header.height, std::min(spec.nchannels, 4), header.type}};
+  const Source source{*input, spec, {header.width, header.height, channelsOf(spec, header), header.type}};
   PictureHeader actual = header;
   actual.channels = source.layout.channels;
   if (auto ok = image::checkPictureLimits(actual, limits, name); !ok) return fail(ok.error());

@@ -16,7 +16,9 @@ Command addBake(CLI::App& program);
 Command addPrefilter(CLI::App& program);
 Command addInspect(CLI::App& program);
 Command addDoctor(CLI::App& program);
+Command addReference(CLI::App& program);
 Command addStability(CLI::App& program);
+Command addCost(CLI::App& program);
 Command addView(CLI::App& program);
 
 }  // namespace cli

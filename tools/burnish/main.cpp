@@ -61,7 +61,7 @@ int runProgram(int argc, char** argv) {
   program.formatter(std::make_shared<HelpText>());
   program.require_subcommand(1);
   program.failure_message(CLI::FailureMessage::simple);
-  const std::vector<Command> commands = {addRender(program), addView(program), addPlan(program), addBake(program), addPrefilter(program), addInspect(program), addDoctor(program), addStability(program)};
+  const std::vector<Command> commands = {addRender(program), addView(program), addPlan(program), addBake(program), addPrefilter(program), addReference(program), addCost(program), addInspect(program), addDoctor(program), addStability(program)};
 
   std::vector<std::string> names;
   for (const Command& command : commands) names.push_back(command.app->get_name());

@@ -18,14 +18,16 @@ using burnish::Result;
 namespace {
 
 // The one piece of mutable state that is global: signal handlers can reach nothing else.
-volatile std::sig_atomic_t gWriting = 0, gPending = 0;
+volatile std::sig_atomic_t gWriting = 0, gPending = 0, gDeferred = 0, gAsked = 0;
 
 void dieOf(int signal) {
   std::signal(signal, SIG_DFL);
   std::raise(signal);
 }
 extern "C" void onSignal(int signal) {
-  if (gWriting)
+  if (gDeferred && !gAsked)
+    gAsked = 1;
+  else if (gWriting)
     gPending = signal;
   else
     dieOf(signal);
@@ -88,6 +90,9 @@ void installSignals() {
   }
   std::signal(SIGPIPE, SIG_IGN);  // a decode helper that died, or a pager that was closed, is an error value
 }
+
+void deferSignals() { gDeferred = 1; }
+bool stopAsked() { return gAsked != 0; }
 
 Result<void> checkOutput(const fs::path& file) {
   std::error_code error;

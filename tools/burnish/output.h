@@ -12,6 +12,9 @@ using Json = nlohmann::ordered_json;
 
 /// Ctrl-C (SIGINT), SIGTERM and SIGHUP end the program at once, except while a file is being put in place: then right after it.
 void installSignals();
+/// From now on the first of these signals only asks the work to end (stopAsked); the next one ends the program.
+void deferSignals();
+bool stopAsked();
 
 /// Says early what would go wrong late: the folder exists and takes new files, the path is no folder or device.
 burnish::Result<void> checkOutput(const std::filesystem::path& file);

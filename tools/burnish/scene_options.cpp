@@ -205,7 +205,7 @@ void SceneOptions::addViewTo(CLI::App& app) {
         return value && *value > 0 && *value < 180 ? value : std::nullopt;
       },
       "an angle above 0 and below 180 degrees");
-  addParsed(app, "--size", "WxH", "pixels (1280x720)", size, parseSize, "a size: give WxH, each 1 to 16384, for example 1280x720");
+  addParsed(app, "--size", "WxH", fmt::format("pixels ({}x{})", size.x, size.y), size, parseSize, "a size: give WxH, each 1 to 16384, for example 1280x720");
   app.add_option("--probes", probes, "a folder of probes that burnish bake wrote: they light the scene")->type_name("DIR");
   app.add_option_function<std::string>(
          "--exposure",
@@ -216,7 +216,14 @@ void SceneOptions::addViewTo(CLI::App& app) {
          },
          "EV100, or auto (the default): from this picture alone")
       ->type_name("EV|auto");
-  addChoice(app, "--tonemap", texts(burnish::toneMapNames()), [this](std::size_t i) { development.toneMap = burnish::ToneMap(i); }, "how radiance becomes colour");
+  addParsed(
+      app, "--scale", "S", "pixels shaded along a side, over those of the picture, which is enlarged from them: 0.25 to 1", scale,
+      [](std::string_view text) -> std::optional<float> {
+        const auto value = parseNumber(text);
+        return value && *value >= 0.25 && *value <= 1 ? std::optional(float(*value)) : std::nullopt;
+      },
+      "a scale from 0.25 to 1");
+  addChoice(app, "--tonemap", texts(burnish::toneMapNames()), [this](std::size_t i) { development.toneMap = burnish::ToneMap(i), toneMapGiven = true; }, "how radiance becomes colour");
 }
 
 void SceneOptions::addSceneTo(CLI::App& app, bool required) {
@@ -224,7 +231,9 @@ void SceneOptions::addSceneTo(CLI::App& app, bool required) {
   CLI::Option* when = addParsed(app, "--time", "S", "plays the scene's animations to this time, seconds; each loops with its own length", time, parseNumber, "a time: give seconds");
   app.add_option("--animation", animation, "with --time: this one alone; without: in the file's order each that moves nothing an earlier one moves")->type_name("NAME|INDEX")->needs(when);
   app.add_option("--env", environment, "a lat-long picture (.hdr, .exr) that lights the scene")->type_name("FILE");
-  addChoice(app, "--quality", texts(burnish::presetNames()), [this](std::size_t i) { preset = std::string(burnish::presetNames()[i]); }, "a preset of rungs");
+  app.add_option_function<std::string>("--quality", [this](const std::string& text) { takeQuality(text); },
+                                       fmt::format("a preset of rungs ({}), or a file that burnish cost --budget wrote: a name with a slash or .json is a file", listed(texts(burnish::presetNames()))))
+      ->type_name("FILE|PRESET");
   app.add_option_function<std::vector<std::string>>(
          "--set",
          [this](const std::vector<std::string>& texts) {
@@ -239,7 +248,7 @@ void SceneOptions::addSceneTo(CLI::App& app, bool required) {
              sets.emplace_back(text.substr(0, equals), text.substr(equals + 1));
            }
          },
-         "a rung of a term, over the preset; repeatable (burnish render --list-rungs)")
+         "a rung of a term, over the preset or file; repeatable (burnish render --list-rungs)")
       ->type_name("TERM=RUNG")
       ->type_size(1)
       ->allow_extra_args(false)
@@ -254,15 +263,34 @@ void SceneOptions::addSceneTo(CLI::App& app, bool required) {
       "a number of threads from 1 to 1024");
 }
 
+void SceneOptions::takeQuality(const std::string& text) {
+  if (text.find('/') != std::string::npos || text.ends_with(".json")) {
+    qualityFile = burnish::readQuality(text);
+    return;
+  }
+  const std::vector<std::string> names = texts(burnish::presetNames());
+  if (std::find(names.begin(), names.end(), text) == names.end())
+    throw CLI::ValidationError("--quality", fmt::format("'{}' is no preset{} and no .json file; choose one of: {}, or give a file (./{} if that is its name)", text, didYouMean(text, names), listed(names), text));
+  preset = text;
+  qualityFile.reset();
+}
+
 burnish::Quality SceneOptions::quality() const {
   burnish::Quality q = development;
-  // Names were checked when they were parsed.
-  (void)burnish::setPreset(q, preset);
+  if (qualityFile && *qualityFile) {
+    q = **qualityFile;
+    q.exposureEv = development.exposureEv;
+    if (toneMapGiven) q.toneMap = development.toneMap;
+  } else {
+    (void)burnish::setPreset(q, preset);  // names were checked when they were parsed
+  }
+  if (scale) q.resolutionScale = *scale;
   for (const auto& [term, rung] : sets) (void)burnish::setRung(q, term, rung);
   return q;
 }
 
 Result<LoadedScene> loadScene(const SceneOptions& options, Progress& progress) {
+  if (options.qualityFile && !*options.qualityFile) return fail(options.qualityFile->error());
   const auto file = resolveScene(options.scene);
   if (!file) return fail(file.error());
   burnish::DecoderPoolOptions pool;

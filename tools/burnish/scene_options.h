@@ -16,8 +16,12 @@ struct SceneOptions {
   std::optional<double> fovDegrees;
   glm::ivec2 size{1280, 720};
   std::string preset = "default";
+  /// --quality named a file: what it says, or why it could not be read. It stands in for the preset.
+  std::optional<burnish::Result<burnish::Quality>> qualityFile;
   std::vector<std::pair<std::string, std::string>> sets;  ///< term and rung, in the order given
   burnish::Quality development;                           ///< tone map and exposure
+  std::optional<float> scale;                             ///< Quality::resolutionScale
+  bool toneMapGiven = false;                              ///< else a quality file's counts
   burnish::Backend backend = burnish::Backend::Egl;
   int threads = 0;  ///< 0: as many as there are
   std::optional<double> time;  ///< seconds; none: the pose that the file stores
@@ -28,11 +32,12 @@ struct SceneOptions {
   void addTo(CLI::App& app, bool required = true);
   /// The same without what belongs to a picture: view, size, development, probes.
   void addSceneTo(CLI::App& app, bool required = true);
-  /// The preset with what --set changed, and the development.
+  /// The preset or the file with what --set changed, and the development. loadScene() fails where the file could not be read.
   [[nodiscard]] burnish::Quality quality() const;
 
  private:
   void addViewTo(CLI::App& app);
+  void takeQuality(const std::string& text);
 };
 
 struct LoadedScene {
@@ -42,7 +47,7 @@ struct LoadedScene {
   burnish::Report report;
 };
 
-/// Reads the scene, its environment and probes, and finds the view.
+/// Reads the scene, its environment and probes, and finds the view. Fails first where the quality file could not be read.
 burnish::Result<LoadedScene> loadScene(const SceneOptions& options, Progress& progress);
 
 /// Opens the backend's context; threads as asked for (Mesa's software renderer reads LP_NUM_THREADS when it starts).

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -39,6 +40,11 @@ struct ReferencePicture {
   Image variance;  ///< of each pixel's mean, (cd/m²)²
   int samples = 0;
   double error = 0;  ///< as ReferenceProgress::error
+  // What was traced, for the file's header:
+  std::uint64_t seed = 1;
+  int bounces = -1;
+  bool pixelArea = true;
+  std::string scene, camera;  ///< names for people; traceReference leaves them empty
 };
 /// Traces paths through the scene with the materials, lights, camera and shading text of the renderer: `quality` says which rungs shade (of specular, diffuse and Fresnel; the preset `exact` is the
 /// one to compare with). Multiple importance sampling of lights, surroundings and emissive surfaces (Veach 1997). Lights are occluded as castsShadow says; stand-ins, probes and baked occlusion have
@@ -48,10 +54,12 @@ BURNISH_API Result<ReferencePicture> traceReference(const Scene& scene, const Vi
 BURNISH_API Result<void> writeReference(const std::filesystem::path& file, const ReferencePicture& picture);
 /// Reads what writeReference wrote. Errors name the file and what is missing.
 BURNISH_API Result<ReferencePicture> readReference(const std::filesystem::path& file);
+/// A picture in cd/m² (F32, three or four channels) as the renderer develops it for a display: U8 RGB. exposureEv empty: metered as its automatic exposure is; `metered` then says what was found.
+BURNISH_API Image develop(const Image& radiance, ToneMap toneMap, std::optional<float> exposureEv, float* metered = nullptr);
 
 // ---- What accuracy costs (docs/cost.md)
 
-/// A measured figure: the median of several, with quartiles.
+/// A measured figure: the median of several. Repeating the measurement gives a median between low and high 19 times in 20 (docs/cost.md).
 struct Spread {
   double median = 0, low = 0, high = 0;
   int count = 0;
@@ -65,6 +73,7 @@ struct PictureError {
   double p999 = 0;        ///< 99.9th percentile over pixels of |difference| / (other + its mean), luminance
   double energy = 0;      ///< sum over sum of the other, less 1: above 0 it is too bright
   long long skipped = 0;  ///< pixels that are not finite
+  long long uncertain = 0;  ///< pixels where the other's noise is over half of its value and mean together: left out of rms and energy
 };
 /// One rung, or one setting of a choice.
 struct RungCost {
@@ -74,6 +83,7 @@ struct RungCost {
   Spread exactPassMs;        ///< the rest as in the preset `exact`; count 0 where that was not timed
   PictureError exact;        ///< against the exact rung, the rest as in the base quality
   PictureError exactRest;    ///< against the exact rung, the rest as in the preset `exact`
+  bool exactRestKnown = false;  ///< that one was rendered; the time may have been too short
   PictureError truth;        ///< against ground truth, the rest as in the base quality
   bool dominated = false;    ///< another rung of the term is no slower and no less exact, and better in one by more than the spread
   std::string note;          ///< why a figure is missing, or what else is to be said; may be empty
@@ -84,6 +94,7 @@ struct TermCost {
   std::string name, what;
   std::string calledBy;      ///< what in the scene exercises it
   bool choice = false;       ///< no term of the lighting equation: a size, a format, a layout
+  std::string setting;       ///< what of the rest is changed so that the term counts ("geometry=void"); empty: nothing
   std::string exactRung;     ///< what errors count against
   Image exactPicture;        ///< U8 RGB
   std::vector<RungCost> rungs;
@@ -113,6 +124,7 @@ struct CostReport {
   Image baseDifference, exactDifference;  ///< F32, one channel, against ground truth
   double differenceScale = 0;          ///< white of all difference pictures
   double seconds = 0;                  ///< wall time that it took
+  std::vector<std::pair<std::string, std::string>> idle;  ///< terms and choices that the scene does not exercise, each with the reason
   std::vector<std::string> warnings;
 };
 struct CostOptions {
@@ -138,13 +150,17 @@ struct BudgetOptions {
   std::function<bool(double share, std::string_view what)> progress;
 };
 struct BudgetResult {
+  double ms = 0, targetError = 0;      ///< what was asked for, as in BudgetOptions
   bool met = false;                    ///< false: nothing that was measured fits; `best` is the nearest
   FrontPoint best;                     ///< measured, not added up
   std::optional<FrontPoint> next;      ///< the cheapest that is better: what the next milliseconds would buy
   int measured = 0;                    ///< combinations that were rendered
 };
-/// The set of rungs with the least error whose measured frame time fits (or the least time whose error fits). Starts from `cost`, whose front it extends by what it measures.
-BURNISH_API Result<BudgetResult> spendBudget(const ProcAddress& getProcAddress, const Scene& scene, const View& view, const CostOptions& options, const BudgetOptions& budget, CostReport& cost, Report& report);
+/// For each budget the set of rungs with the least error whose measured frame time fits, its spread included (or the least time whose error fits). One search: what is rendered for one budget serves
+/// the others. Starts from `cost`, whose front it extends by what it measures. `options` as measureCost had them. Only terms that the scene exercises are touched, and no antialiasing or bloom.
+/// Errors: budgets that ask for nothing, a report of another size, stopped by `progress` (of the first budget), OpenGL's. When the time is up (the sum of all minutes) it returns what it has.
+BURNISH_API Result<std::vector<BudgetResult>> spendBudget(const ProcAddress& getProcAddress, const Scene& scene, const View& view, const CostOptions& options, std::span<const BudgetOptions> budgets, CostReport& cost,
+                                                          Report& report);
 
 /// Into the folder: index.html (self-contained), cost.json, cost.csv, and plots as SVG and PNG. Each file complete or absent.
 BURNISH_API Result<void> writeCostReport(const std::filesystem::path& folder, const CostReport& cost, const std::vector<BudgetResult>& budgets, Report& report);
@@ -175,10 +191,19 @@ struct GuardRow {
 /// Called before each case with how many are done, of how many.
 using MeasureProgress = std::function<void(int done, int total, std::string_view what)>;
 
-/// The hard cases of the shading text as C++, in double and in float. No OpenGL. Some seconds.
-BURNISH_API std::vector<StabilityCase> stabilityOnCpu(const MeasureProgress& progress = {});
+struct StabilityOptions {
+  std::vector<std::string> cases;        ///< ids, "H12": these alone; empty: all
+  bool quick = false;                    ///< without the cases that take more than a second or so on a software renderer
+  std::filesystem::path shaderOverride;  ///< RendererOptions::shaderOverride of the pictures, and of the shading text as GLSL
+  MeasureProgress progress;
+};
+/// Every id that has a case, in order: "H1" to "H29".
+BURNISH_API std::vector<std::string> stabilityIds();
+/// The hard cases of the shading text as C++, in double and in float, and of what is computed on the CPU. No OpenGL. Some seconds.
+BURNISH_API std::vector<StabilityCase> stabilityOnCpu(const StabilityOptions& options = {});
 /// The hard cases on the current context: the shading text as GLSL, and pictures through the renderer. `backend`: the name for the rows. Errors of OpenGL itself are rows that fail.
-BURNISH_API std::vector<StabilityCase> stabilityOnGpu(const ProcAddress& getProcAddress, std::string_view backend, const MeasureProgress& progress = {});
+/// A minute or so on a software renderer.
+BURNISH_API std::vector<StabilityCase> stabilityOnGpu(const ProcAddress& getProcAddress, std::string_view backend, const StabilityOptions& options = {});
 /// The guard ledger: each guard taken out by itself, in double. No OpenGL. Some seconds.
 BURNISH_API std::vector<GuardRow> guardLedger(const MeasureProgress& progress = {});
 

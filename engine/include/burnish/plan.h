@@ -99,6 +99,7 @@ struct PlanOptions {
   bool hostDepthIn = false, hostDepthOut = false, hostDraw = false;
   bool countNonfinite = false;
   int sequence = 0;  ///< RenderRequest::sequence
+  bool displayLight = false;  ///< RenderRequest::displayLight
   TileBounds tileBounds = TileBounds::Automatic;
   /// Plans as if everything in the scene were in view: what Renderer::warmUp wants, so that turning around compiles nothing. An executed plan is of what the views see.
   bool wholeScene = false;
@@ -121,7 +122,7 @@ struct HostDraw {
   unsigned framebuffer = 0;
   glm::mat4 viewProjection{1};  ///< camera-relative world space (world minus eye) to clip space, depth reversed in [0,1]; with antialiasing=temporal it moves by parts of a pixel
   glm::dvec3 eye{0};
-  glm::ivec4 viewport{0};
+  glm::ivec4 viewport{0};       ///< of the framebuffer, which is smaller than the target where Quality::resolutionScale is below 1
   float exposure = 1;           ///< multiply radiance in cd/m² by this before writing it
 };
 
@@ -129,7 +130,7 @@ struct Target {
   unsigned framebuffer = 0;  ///< drawn to; colour attachment 0 (8-bit for Output::Display: the engine encodes sRGB itself)
   glm::ivec2 size{0};
   std::optional<HostDepth> depthIn;   ///< occludes the engine's scene (Target must be written by the host first)
-  std::optional<HostDepth> depthOut;  ///< receives the engine's depth
+  std::optional<HostDepth> depthOut;  ///< receives the engine's depth (of the nearest pixel, where Quality::resolutionScale is below 1)
 };
 
 enum class TimingMode : std::uint8_t { Off, Async, Profile };  ///< Profile finishes between passes: right on software renderers, slow on others
@@ -155,6 +156,7 @@ struct RenderRequest {
   Output output = Output::Display;
   DebugView debugView = DebugView::Final;
   TimingMode timing = TimingMode::Off;
+  bool displayLight = false;    ///< with Output::Linear: radiance is gathered as for a display (Quality::lightBuffer's format, pre-exposed), so that its rounding shows; else in 32-bit floats
   bool countNonfinite = false;  ///< waits for the GPU; with automatic exposure it reads FrameStats::exposureEv too
   /// Which pictures this one follows: antialiasing=temporal keeps a history for each number, and in it one for each view in order. Calls that take turns (two windows, a mirror) give
   /// each its own.

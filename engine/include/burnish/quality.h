@@ -73,9 +73,10 @@ struct Quality {
   float shadowDistance = 0;     ///< metres from the eye up to which directional lights have shadows; 0: as far as there is something to see
   int shadowMaps = 64;          ///< of one view, 1 to 1024; a directional light takes shadowCascades, a spot light 1 (6 when wider than 60 degrees from its axis), a point light up to 6
 
-  NormalStorage normalStorage = NormalStorage::Oct12;
-  LightBuffer lightBuffer = LightBuffer::Rgba16F;
-  /// Pixels that are shaded along a side, over those of the target: 0.25 to 1. What is drawn smaller is enlarged before it is tone mapped.
+  NormalStorage normalStorage = NormalStorage::Oct12;  ///< of Path::Deferred
+  LightBuffer lightBuffer = LightBuffer::Rgba16F;      ///< of pictures for a display; linear output has 32-bit floats (but see RenderRequest::displayLight)
+  /// Pixels that are shaded along a side, over those of the target: 0.25 to 1. What is drawn smaller is enlarged (bilinear, in linear light) before it is tone mapped. No effect with a debug view
+  /// or where the target brings depth.
   float resolutionScale = 1;
 
   Antialiasing antialiasing = Antialiasing::None;
@@ -107,7 +108,7 @@ struct Term {
   std::string_view name;  ///< as --set spells it
   std::string_view what;
   std::span<const Rung> rungs;
-  bool picture = false;   ///< no part of a surface's lighting equation: it works on the finished picture or on how it is sampled, or decides which light arrives
+  bool picture = false;   ///< no part of a surface's lighting equation: it works on the finished picture or on how it is sampled or stored, or decides which light arrives
 };
 
 /// Every term. The index of a term is what rungOf and setRung take.

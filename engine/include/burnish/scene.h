@@ -290,8 +290,11 @@ struct Environment {
   glm::vec3 color{0};      ///< cd/m², used without a map
   float scale = 1;
   bool background = true;  ///< draw it where nothing else is
-  std::uint64_t revision = 0;  ///< advance it when the map or colour changes
+  std::uint64_t revision = 0;  ///< advance it when the map, the colour or its filter changes
   std::optional<Sun> sun;
+  /// How the map is filtered for reflections (docs/storage.md): texels along an edge of the cube, a power of two, 16 to 1024, and the error that is allowed, as PrefilterOptions has it.
+  int filterSize = 256;
+  double filterError = 1e-4;
 };
 
 /// Sun and sky of a clear day (docs/sky_and_fog.md).

@@ -7,7 +7,7 @@
 #include "core/hash.h"
 #include "scene/visibility.h"
 
-namespace burnish::probe {
+namespace burnish::scene {
 
 core::Hash128 hashOf(const Environment& environment);
 core::Hash128 hashOf(const Fog& fog);
@@ -16,9 +16,9 @@ class SceneHashes {
  public:
   explicit SceneHashes(const Scene& scene) : scene_(scene) {}
   /// Shape and place: what a shadow is made of. `withHoles`: and its material, whose holes show in shadows.
-  core::Hash128 shape(const scene::Placed& placed, bool withHoles);
+  core::Hash128 shape(const Placed& placed, bool withHoles);
   /// Shape, place and material.
-  core::Hash128 look(const scene::Placed& placed);
+  core::Hash128 look(const Placed& placed);
   core::Hash128 light(const Light& light) const;
 
  private:
@@ -30,4 +30,4 @@ class SceneHashes {
   std::unordered_map<std::uint32_t, core::Hash128> meshes_, textures_, materials_;  ///< by index
 };
 
-}  // namespace burnish::probe
+}  // namespace burnish::scene

@@ -1,7 +1,7 @@
 // Structured bindings list every member of what they hash: a new one does not compile until it is looked at here.
-#include "probe/scene_hash.h"
+#include "scene/scene_hash.h"
 
-namespace burnish::probe {
+namespace burnish::scene {
 namespace {
 
 using core::Hash128;
@@ -49,10 +49,10 @@ Hash128 kept(std::unordered_map<std::uint32_t, Hash128>& known, const Table<T>& 
 }  // namespace
 
 Hash128 hashOf(const Environment& environment) {
-  const auto& [map, color, scale, background, revision, sun] = environment;
+  const auto& [map, color, scale, background, revision, sun, filterSize, filterError] = environment;
   (void)revision;  // counts changes, which the content tells
   Hasher h;
-  add(h, map), add(h, color), h.value(scale), h.value(background), h.value(sun.has_value());
+  add(h, map), add(h, color), h.value(scale), h.value(background), h.value(filterSize), h.value(filterError), h.value(sun.has_value());
   if (sun) {
     const auto& [toSun, radiance, radius, horizon] = *sun;
     add(h, toSun), add(h, radiance), h.value(radius), h.value(horizon);
@@ -95,11 +95,11 @@ Hash128 SceneHashes::material(Id<Material> id) {
   });
 }
 
-Hash128 SceneHashes::shape(const scene::Placed& placed, bool withHoles) {
+Hash128 SceneHashes::shape(const Placed& placed, bool withHoles) {
   Hasher h;
   h.hash(mesh(placed.instance->mesh));
   add(h, placed.placement);
-  if (const scene::Pose* pose = placed.pose) {
+  if (const Pose* pose = placed.pose) {
     h.value(pose->flipped);
     for (const glm::mat4& joint : pose->joints) add(h, joint);
     for (const auto& [target, weight] : pose->targets) h.value(target), h.value(weight);
@@ -108,7 +108,7 @@ Hash128 SceneHashes::shape(const scene::Placed& placed, bool withHoles) {
   return h.finish();
 }
 
-Hash128 SceneHashes::look(const scene::Placed& placed) {
+Hash128 SceneHashes::look(const Placed& placed) {
   Hasher h;
   h.hash(shape(placed, true));
   h.value(placed.instance->castsShadow);
@@ -123,4 +123,4 @@ Hash128 SceneHashes::light(const Light& light) const {
   return h.finish();
 }
 
-}  // namespace burnish::probe
+}  // namespace burnish::scene

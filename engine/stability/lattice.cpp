@@ -1,4 +1,4 @@
-#include "grid_sampler.h"
+#include "stability/lattice.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include "gpu_scene/grid_planes.h"
 #include "reference/shading.h"
 
-namespace burnish::test {
+namespace burnish::stability {
 
 using glm::dvec2;
 using glm::dvec3;
@@ -126,4 +126,4 @@ AmbientGrid gridIn(const dvec3& min, const dvec3& max, glm::ivec3 n, double inse
   return grid;
 }
 
-}  // namespace burnish::test
+}  // namespace burnish::stability

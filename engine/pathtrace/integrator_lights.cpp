@@ -1,0 +1,72 @@
+// What a surface reflects of lights that are sampled: punctual ones, emissive surfaces, surroundings.
+#include <algorithm>
+#include <cmath>
+
+#include "pathtrace/integrator.h"
+
+namespace burnish::pathtrace {
+
+using glm::dvec3;
+using glm::vec3;
+
+vec3 Integrator::lit(const SurfacePoint& point, const Bsdf& bsdf, Sampler& sampler) const {
+  vec3 sum(0);
+  for (const std::uint32_t i : lights_.directional()) {
+    const PunctualLight& light = world_->lights()[i];
+    sum += litByLight(point, bsdf, light, receive(light, point.position), sampler);
+  }
+  if (lights_.hasLocal()) {
+    const LightPicker::Pick pick = lights_.pick(point.position, bsdf, sampler.next());
+    if (pick.light) sum += litByLight(point, bsdf, *pick.light, pick.received, sampler) / pick.chance;
+  }
+  if (technique_ == Technique::Surfaces) return sum;
+  if (world_->hasEmitters()) sum += litByEmitter(point, bsdf, sampler);
+  if (world_->hasEnvironment()) sum += litBySky(point, bsdf, sampler);
+  return sum;
+}
+
+// The light arrives as from its middle; its size makes shadows soft: their rays end on the disc that it shows to the point. What of the disc lies below the triangle is hidden by it.
+vec3 Integrator::litByLight(const SurfacePoint& point, const Bsdf& bsdf, const PunctualLight& light, const Received& received, Sampler& sampler) const {
+  const glm::vec2 u = light.castsShadow ? sampler.next2() : glm::vec2(0);
+  if (received.irradiance == vec3(0)) return vec3(0);
+  const vec3 value = bsdf.alone(received.toLight) * received.irradiance;
+  if (!light.castsShadow || value == vec3(0)) return value;
+  if (light.directional) {
+    const vec3 toDisc = light.angularDiameter > 0 ? inCone(light.toLight, 0.5f * std::min(light.angularDiameter, 3.1415926f), u) : light.toLight;
+    if (!(glm::dot(toDisc, point.geometric) > 0)) return vec3(0);
+    return value * world_->transmittanceAlong(point, toDisc, Bodies::Straight);
+  }
+  const glm::vec2 disc = onDisc(u) * light.radius;
+  const Frame frame(received.toLight);
+  const dvec3 place = light.position + dvec3(frame.t * disc.x + frame.b * disc.y);
+  if (!(glm::dot(place - point.position, dvec3(point.geometric)) > 0)) return vec3(0);
+  return value * world_->transmittance(point, place, Bodies::Straight);
+}
+
+vec3 Integrator::litByEmitter(const SurfacePoint& point, const Bsdf& bsdf, Sampler& sampler) const {
+  const float pick = sampler.next();
+  EmitterSample light;
+  if (!world_->sampleEmitter(point.position, pick, sampler.next2(), light) || !(light.density > 0)) return vec3(0);
+  const dvec3 way = light.position - point.position;
+  const double d2 = glm::dot(way, way);
+  if (!(d2 > 0)) return vec3(0);
+  const vec3 toLight(way / std::sqrt(d2));
+  const float cosine = -glm::dot(light.normal, toLight);
+  if (!(cosine > 0)) return vec3(0);
+  const Reflected r = bsdf.reflected(toLight);
+  const float density = float(light.density * d2 / double(cosine));
+  const vec3 value = r.value * light.radiance * (weight(density, r.density, false) / density);
+  if (value == vec3(0) || !std::isfinite(density)) return vec3(0);
+  return value * world_->transmittance(point, light.position, Bodies::Block);
+}
+
+vec3 Integrator::litBySky(const SurfacePoint& point, const Bsdf& bsdf, Sampler& sampler) const {
+  const EnvironmentSample light = world_->sampleEnvironment(sampler.next2());
+  if (!(light.density > 0)) return vec3(0);
+  const Reflected r = bsdf.reflected(light.direction);
+  const vec3 value = r.value * light.radiance * (weight(light.density, r.density, false) / light.density);
+  if (value == vec3(0)) return vec3(0);
+  return value * world_->transmittanceAlong(point, light.direction, Bodies::Block);
+}
+
+}  // namespace burnish::pathtrace
