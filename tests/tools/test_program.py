@@ -1199,6 +1199,27 @@ class Budget(Program):
         os.mkfifo(file)
         self.bad(1, "plan", self.scene, "--quality", file, says="q.json")
 
+    def test_cost_writes_the_quality_of_each_budget(self):
+        out = self.folder / "cost"
+        result = self.good("cost", self.scene, "-o", out, "--size", "48x48", "--no-reference", "--no-choices", "--rounds", "3", "--term", "fresnel", "--term", "diffuse",
+                           "--budget", "100%", "--budget", "0.0001", "--target-error", "50%", "--budget-minutes", "0.2")
+        report = json.loads((out / "cost.json").read_text())
+        self.assertEqual([b["met"] for b in report["budgets"]], [True, False, True])
+        self.assertAlmostEqual(report["budgets"][0]["ms"], report["base"]["ms"], delta=1e-3 * report["base"]["ms"])
+        self.assertLessEqual(report["budgets"][0]["best"]["error"]["rms"], report["base"]["error"]["rms"])
+        self.assertLessEqual(report["budgets"][2]["best"]["error"]["rms"], 0.5)
+        self.assertIn("NOT MET", result.stdout)
+        self.assertIn("--budget 100% --budget 0.0001 --target-error 50% --budget-minutes 0.2", report["command"])
+        for name, budget in zip(["100_percent", "0.0001_ms", "error_0.5"], report["budgets"]):
+            file = out / f"quality_{name}.json"
+            self.assertIn(file.name, result.stdout)
+            self.assertEqual(self.rungs("--quality", file), budget["best"]["rungs"])
+
+    def test_budgets_are_numbers(self):
+        for text in "", "fast", "0", "-3", "50%%", "%", "nan", "inf":
+            self.bad(2, "cost", self.scene, "-o", self.out, f"--budget={text}", says="--budget")
+            self.bad(2, "cost", self.scene, "-o", self.out, f"--target-error={text}", says="--target-error")
+
 
 class Stability(Program):
     def test_hard_cases_hold(self):

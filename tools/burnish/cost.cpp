@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "commands.h"
+#include "cost_budget.h"
 #include "cost_text.h"
 #include "output.h"
 #include "scene_options.h"
@@ -27,6 +28,7 @@ struct CostArguments {
   double minutes = 14;
   int rounds = 7;
   std::vector<std::string> terms;
+  BudgetArguments budgets;
 };
 
 class Stopwatch {
@@ -61,7 +63,7 @@ std::string commandOf(const CostArguments& a) {
   add(a.noChoices, "--no-choices");
   for (const std::string& term : a.terms) add(true, "--term " + term);
   add(true, fmt::format("--minutes {:g} --rounds {}", a.minutes, a.rounds));
-  return text;
+  return text + a.budgets.command();
 }
 
 /// Traces the ground truth, or goes on with what an earlier call left in the folder.
@@ -95,7 +97,12 @@ Result<burnish::ReferencePicture> trace(const CostArguments& a, LoadedScene& loa
   return picture;
 }
 
-Result<burnish::CostReport> measure(const CostArguments& a, LoadedScene& loaded, const burnish::ReferencePicture* truth, double minutes, Progress& progress) {
+struct Measured {
+  burnish::CostReport cost;
+  std::vector<burnish::BudgetResult> budgets;
+};
+
+Result<Measured> measure(const CostArguments& a, LoadedScene& loaded, const burnish::ReferencePicture* truth, double minutes, Progress& progress) {
   progress.stage("preparing");
   auto context = openContext(a.scene);
   if (!context) return fail(context.error());
@@ -114,7 +121,11 @@ Result<burnish::CostReport> measure(const CostArguments& a, LoadedScene& loaded,
     progress.step(int(1000 * share), 1000);
     return true;
   };
-  return burnish::measureCost((*context)->procAddress(), loaded.scene, loaded.view, options, loaded.report);
+  auto cost = burnish::measureCost((*context)->procAddress(), loaded.scene, loaded.view, options, loaded.report);
+  if (!cost) return fail(cost.error());
+  auto budgets = burnish::spendBudget((*context)->procAddress(), loaded.scene, loaded.view, options, a.budgets.options(*cost, options.progress), *cost, loaded.report);
+  if (!budgets) return fail(budgets.error());
+  return Measured{std::move(*cost), std::move(*budgets)};
 }
 
 Result<void> copyJson(const fs::path& from, const std::string& to) {
@@ -143,8 +154,9 @@ int run(const CostArguments& a) {
     truth = std::move(*picture);
   }
   const double minutes = a.minutes > 0 ? std::max(a.minutes - watch.seconds() / 60, 0.01) : 0;
-  auto cost = measure(a, *loaded, truth ? &*truth : nullptr, minutes, progress);
-  if (!cost) return failed(cost.error());
+  auto measured = measure(a, *loaded, truth ? &*truth : nullptr, minutes, progress);
+  if (!measured) return failed(measured.error());
+  burnish::CostReport* const cost = &measured->cost;
   cost->scene = a.scene.scene;
   cost->camera = loaded->cameraName;
   cost->command = commandOf(a);
@@ -153,7 +165,8 @@ int run(const CostArguments& a) {
 
   progress.stage("writing " + a.output);
   burnish::Report report;
-  auto written = burnish::writeCostReport(a.output, *cost, {}, report);
+  auto written = burnish::writeCostReport(a.output, *cost, measured->budgets, report);
+  if (written) written = writeQualities(a.output, a.budgets, measured->budgets, *cost);
   for (std::string& text : warningTexts(report)) cost->warnings.push_back(std::move(text));
   if (written && !a.json.empty()) written = copyJson(fs::path(a.output) / "cost.json", a.json);
   progress.finish();
@@ -161,6 +174,7 @@ int run(const CostArguments& a) {
   if (!written) return printError(written.error());
   if (a.json == "-") return kOk;
   printCost(*cost);
+  printBudgets(a.output, a.budgets, measured->budgets, *cost);
   fmt::print("\n{} ({:.0f} s)\n", shown((fs::path(a.output) / "index.html").string()), cost->seconds);
   return kOk;
 }
@@ -194,6 +208,7 @@ Command addCost(CLI::App& program) {
       ->type_size(1)
       ->allow_extra_args(false)
       ->take_all();
+  arguments->budgets.addTo(*app);
   app->add_flag("--no-choices", arguments->noChoices, "terms alone: no sizes, formats and layouts");
   app->add_option("--json", arguments->json, "write cost.json here too (- for standard output)")->type_name("FILE");
   return {app, [arguments] { return run(*arguments); }};

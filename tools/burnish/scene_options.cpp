@@ -266,6 +266,7 @@ void SceneOptions::addSceneTo(CLI::App& app, bool required) {
 void SceneOptions::takeQuality(const std::string& text) {
   if (text.find('/') != std::string::npos || text.ends_with(".json")) {
     qualityFile = burnish::readQuality(text);
+    preset = text;
     return;
   }
   const std::vector<std::string> names = texts(burnish::presetNames());

@@ -15,7 +15,7 @@ struct SceneOptions {
   std::optional<glm::dvec3> eye, target, up;
   std::optional<double> fovDegrees;
   glm::ivec2 size{1280, 720};
-  std::string preset = "default";
+  std::string preset = "default";  ///< or the file's name, for people
   /// --quality named a file: what it says, or why it could not be read. It stands in for the preset.
   std::optional<burnish::Result<burnish::Quality>> qualityFile;
   std::vector<std::pair<std::string, std::string>> sets;  ///< term and rung, in the order given
