@@ -20,12 +20,18 @@ INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*[<"]([^>"]+)[>"]', re.M)
 SOURCES = {".h", ".hpp", ".c", ".cpp", ".inl", ".glsl", ".vert", ".frag", ".comp"}
 GL_HEADER = re.compile(r"^(glad/|GL/|EGL/|GLES|KHR/|epoxy/|GLFW/)")
 
+
+def is_viewer(path):
+    return path.parts[:2] == ("tools", "burnish") and path.name.startswith("view")
+
+
 LIBRARY_USERS = [  # (include pattern, who may, in words)
     (re.compile(r"^OpenImageIO/"), lambda p: p.parts[:2] == ("tools", "burnish-decode"), "only tools/burnish-decode uses OpenImageIO"),
     (re.compile(r"^(tiny_gltf|tinygltf)"), lambda p: p.parts[:2] == ("tests", "unit"), "only tests/unit uses tinygltf"),
-    (re.compile(r"^glad/"), lambda p: p.parts[0] == "engine" and p.parts[1] in GL_USERS, "glad belongs to gl and the modules above it"),
-    (re.compile(r"^(EGL/|GL/osmesa|GLFW/)"), lambda p: p.parts[:2] == ("engine", "context") or p.parts[0] == "samples",
-     "only engine/context (and sample hosts) open contexts"),
+    (re.compile(r"^glad/"), lambda p: (p.parts[0] == "engine" and p.parts[1] in GL_USERS) or is_viewer(p), "glad belongs to gl, the modules above it and burnish view"),
+    (re.compile(r"^(EGL/|GL/osmesa|GLFW/)"), lambda p: p.parts[:2] == ("engine", "context") or p.parts[0] == "samples" or is_viewer(p),
+     "only engine/context (and sample hosts) open contexts; burnish view handles its window's events"),
+    (re.compile(r"^(imgui|backends/imgui)"), lambda p: is_viewer(p), "only burnish view uses Dear ImGui"),
     (re.compile(r"^embree"), lambda p: p.parts[:2] == ("engine", "reference"), "only engine/reference uses Embree"),
     (re.compile(r"^CLI/"), lambda p: p.parts[0] == "tools", "only tools parse a command line"),
 ]

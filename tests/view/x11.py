@@ -23,6 +23,9 @@ class AnyEvent(ctypes.Union):
     _fields_ = [("input", InputEvent), ("client", ClientEvent), ("room", ctypes.c_long * 24)]
 
 
+ErrorHandler = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_void_p)
+
+
 class Display:
     def __init__(self):
         self.x = x = ctypes.CDLL("libX11.so.6")
@@ -32,6 +35,8 @@ class Display:
         if not self.display:
             raise RuntimeError("no X display: run this under xvfb-run -a")
         self.root = x.XDefaultRootWindow(self.display)
+        self.ignore = ErrorHandler(lambda display, error: 0)  # kept alive: Xlib holds it
+        x.XSetErrorHandler(self.ignore)
 
     def close(self):
         self.x.XCloseDisplay(self.display)
@@ -55,9 +60,17 @@ class Display:
             time.sleep(0.05)
         raise RuntimeError(f"no window '{title}' after {seconds} s")
 
-    def focus(self, window):
-        self.x.XSetInputFocus(self.display, ctypes.c_ulong(window), REVERT_TO_PARENT, ctypes.c_ulong(0))
-        self.x.XSync(self.display, 0)
+    def focus(self, window, seconds=10):
+        """Gives it the keyboard, once it is on the screen: until then the server refuses."""
+        ends = time.monotonic() + seconds
+        focus, revert = ctypes.c_ulong(), ctypes.c_int()
+        while time.monotonic() < ends and focus.value != window:
+            self.x.XSetInputFocus(self.display, ctypes.c_ulong(window), REVERT_TO_PARENT, ctypes.c_ulong(0))
+            self.x.XSync(self.display, 0)
+            time.sleep(0.05)
+            self.x.XGetInputFocus(self.display, ctypes.byref(focus), ctypes.byref(revert))
+        if focus.value != window:
+            raise RuntimeError(f"the window takes no focus after {seconds} s")
 
     def _send(self, window, kind, detail):
         event = AnyEvent()

@@ -39,8 +39,8 @@ void addSplit(CLI::App& app, viewer::Arguments& arguments) {
              arguments.split.push_back(word);
            }
          },
-         "opens with two qualities side by side; B has this rung, or the rungs of this preset, in place of A's; repeatable")
-      ->type_name("TERM=RUNG|PRESET")
+         "opens with two qualities side by side; B has this rung, the rungs of this preset, or all of this quality file in place of A's; repeatable")
+      ->type_name("TERM=RUNG|PRESET|FILE.json")
       ->type_size(1)
       ->allow_extra_args(false)
       ->take_all();

@@ -48,9 +48,9 @@ double scaleFor(std::vector<float> values) {
 
 glm::dvec3 heatColor(double t) {
   t = std::clamp(t, 0.0, 1.0);
-  const double lightness = 0.97 * t, hue = (-75 + 180 * t) * M_PI / 180;
+  const double lightness = 0.2 + 0.77 * t, hue = (-75 + 180 * t) * M_PI / 180;
   // As colourful as the display can show at this lightness, up to a limit; the ends are grey.
-  double chroma = 0.2 * std::min({1.0, 4 * t, 5 * (1 - t)});
+  double chroma = 0.2 * std::min({1.0, 0.3 + 4 * t, 5 * (1 - t)});
   while (chroma > 1e-3 && !inGamut(linearOfOklab(lightness, chroma, hue))) chroma *= 0.97;
   const glm::dvec3 color = glm::clamp(linearOfOklab(lightness, chroma, hue), glm::dvec3(0), glm::dvec3(1));
   return {encoded(color.x), encoded(color.y), encoded(color.z)};
@@ -94,9 +94,8 @@ Difference differenceOf(const burnish::Image& a, const burnish::Image& b, double
   const auto colors = ramp();
   out.heat = burnish::makeImage(a.width, a.height, 4, burnish::PixelType::U8);
   for (std::size_t i = 0; i < count; ++i) {
-    // Whatever differs at all is at least the darkest colour that is not black.
     const double t = double(values[i]) / out.scale * (kColors - 1);
-    const glm::u8vec3 color = values[i] < 0 ? glm::u8vec3(255, 0, 255) : values[i] == 0 ? glm::u8vec3(0) : colors[std::size_t(std::clamp(std::lround(t), 6L, long(kColors - 1)))];
+    const glm::u8vec3 color = values[i] < 0 ? glm::u8vec3(255, 0, 255) : values[i] == 0 ? glm::u8vec3(0) : colors[std::size_t(std::clamp(std::lround(t), 0L, long(kColors - 1)))];
     for (int c = 0; c < 3; ++c) out.heat.u8()[4 * i + std::size_t(c)] = color[c];
     out.heat.u8()[4 * i + 3] = 255;
   }

@@ -19,7 +19,7 @@ struct Difference {
 /// `a`, `b`: F32 RGBA of one size, cd/m². `white`: cd/m². `scale` 0: the smallest round one that all but a thousandth of the pixels keep.
 Difference differenceOf(const burnish::Image& a, const burnish::Image& b, double white, double scale, double threshold);
 
-/// From black (0) over violet and red to pale yellow (1). Lightness grows in proportion (Oklab, Ottosson 2020), so that a lighter colour is always more, for the colour-blind too. sRGB, 0..1.
+/// From dark violet (just above 0; equal pixels are black) over red to pale yellow (1). Lightness grows in proportion (Oklab, Ottosson 2020), so that a lighter colour is always more, for the colour-blind too. sRGB, 0..1.
 glm::dvec3 heatColor(double t);
 
 }  // namespace cli::viewer

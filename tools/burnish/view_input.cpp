@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "view_window.h"
 
@@ -40,21 +42,23 @@ void switchLayout(State& state, Layout to) {
   if (state.layout != Layout::One) state.open[std::size_t(Panel::Compare)] = true;
 }
 
-void takeKeys(State& state, const Places& places) {
+/// `presses`: keys that went down since the last frame. ImGui alone would miss those that are up again: a frame may take longer than a tap.
+void takeKeys(State& state, const Places& places, const std::vector<int>& presses) {
   const ImGuiIO& io = ImGui::GetIO();
-  if (io.KeyCtrl) return;
+  if (io.KeyCtrl || io.WantTextInput) return;
+  const auto press = [&presses](int key) { return std::find(presses.begin(), presses.end(), key) != presses.end(); };
   const float aspect = float(std::max(places.panes[0].size.x, 1)) / float(std::max(places.panes[0].size.y, 1));
-  if (pressed(GLFW_KEY_F)) state.frameAll(aspect);
-  if (pressed(GLFW_KEY_C)) switchLayout(state, Layout::Split);
-  if (pressed(GLFW_KEY_H)) switchLayout(state, Layout::Heat);
-  if (pressed(GLFW_KEY_V)) state.debugView = burnish::DebugView((std::size_t(state.debugView) + 1) % burnish::debugViewNames().size());
-  if (pressed(GLFW_KEY_P)) state.printCamera = true;
-  if (pressed(GLFW_KEY_F12)) state.savePicture = true;
-  if (pressed(GLFW_KEY_TAB)) state.showUi = !state.showUi;
-  if (pressed(GLFW_KEY_SPACE) && state.length > 0) state.playing = !state.playing;
+  if (press(GLFW_KEY_F)) state.frameAll(aspect);
+  if (press(GLFW_KEY_C)) switchLayout(state, Layout::Split);
+  if (press(GLFW_KEY_H)) switchLayout(state, Layout::Heat);
+  if (press(GLFW_KEY_V)) state.debugView = burnish::DebugView((std::size_t(state.debugView) + 1) % burnish::debugViewNames().size());
+  if (press(GLFW_KEY_P)) state.printCamera = true;
+  if (press(GLFW_KEY_F12)) state.savePicture = true;
+  if (press(GLFW_KEY_TAB)) state.showUi = !state.showUi;
+  if (press(GLFW_KEY_SPACE) && state.length > 0) state.playing = !state.playing;
   const auto cameras = camerasOf(state.scene());
   for (int i = 0; i < 9 && i < int(cameras.size()); ++i)
-    if (pressed(GLFW_KEY_1 + i)) state.lookThrough(cameras[std::size_t(i)].first);
+    if (press(GLFW_KEY_1 + i)) state.lookThrough(cameras[std::size_t(i)].first);
 }
 
 /// True while the line between A and B is dragged.
@@ -73,7 +77,7 @@ void Window::takeInput() {
   const auto now = Clock::now();
   // A first step after a rest is no leap.
   const double seconds = moving_ || state_.playing ? std::min(std::chrono::duration<double>(now - lastFrame_).count(), 0.5) : 0.016;
-  takeKeys(state_, places_);
+  takeKeys(state_, places_, std::exchange(presses_, {}));
   dragging_ = dragDivider(state_, places_, dragging_);
   moving_ = fly(state_, seconds);
   if (state_.playing) state_.pose(std::fmod(state_.time + seconds, std::max(state_.length, 1e-6)));

@@ -9,8 +9,10 @@
 namespace cli::viewer {
 namespace {
 
-std::string spreadText(const Middle& m) { return m.count == 0 ? "..." : fmt::format("{:.2f} [{:.2f}, {:.2f}]", m.median, m.low, m.high); }
-std::string gapText(const Middle& m) { return m.count == 0 ? "..." : fmt::format("{:+.2f} [{:+.2f}, {:+.2f}]", m.median, m.low, m.high); }
+/// Four digits, so that two of them fit side by side.
+std::string number(double ms, const char* sign = "") { return fmt::format(fmt::runtime(fmt::format("{{:{}.{}f}}", sign, std::abs(ms) >= 1000 ? 0 : std::abs(ms) >= 100 ? 1 : 2)), ms); }
+std::string spreadText(const Middle& m) { return m.count == 0 ? "..." : fmt::format("{} [{}, {}]", number(m.median), number(m.low), number(m.high)); }
+std::string gapText(const Middle& m) { return m.count == 0 ? "..." : fmt::format("{} [{}, {}]", number(m.median, "+"), number(m.low, "+"), number(m.high, "+")); }
 
 struct Row {
   std::string what, a, b;
@@ -58,10 +60,15 @@ bool editSet(Other::Set& set) {
 }
 
 void chooseOther(Other& other) {
-  std::vector<std::string> presets{"A's"};
+  if (other.file) {
+    text(other.fileName);
+    ImGui::SameLine();
+    if (ImGui::SmallButton("x##file")) other.file.reset();
+  }
+  std::vector<std::string> presets{other.file ? "the file's" : "A's"};
   for (const std::string_view name : burnish::presetNames()) presets.emplace_back(name);
   combo("B's rungs", other.preset, presets);
-  tooltip("A's own rungs, or those of a preset; below: what B has in their place");
+  tooltip("A's own rungs (or a quality file's, --split FILE.json), or those of a preset; below: what B has in their place");
   for (std::size_t i = 0; i < other.sets.size(); ++i) {
     ImGui::PushID(int(i));
     const bool remove = editSet(other.sets[i]);

@@ -1,6 +1,8 @@
 // The plan of the last frame: each effect with its reason, passes and targets.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "view_panels.h"
 
 namespace cli::viewer {
@@ -13,6 +15,7 @@ std::string callerOf(const burnish::EffectPlan& effect) {
 
 std::string bytesText(std::uint64_t bytes) {
   if (bytes == 0) return {};
+  if (bytes < 1000) return fmt::format("{} B", bytes);
   return bytes < 1'000'000 ? fmt::format("{:.1f} kB", double(bytes) / 1e3) : fmt::format("{:.1f} MB", double(bytes) / 1e6);
 }
 
@@ -33,9 +36,10 @@ void effectRow(const burnish::EffectPlan& effect) {
 
 void effects(const burnish::FramePlan& plan, bool on) {
   if (!ImGui::BeginTable(on ? "on" : "off", 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit)) return;
-  const float letter = ImGui::GetFontSize() * 0.55f;
-  ImGui::TableSetupColumn("effect", ImGuiTableColumnFlags_WidthFixed, letter * 15);
-  ImGui::TableSetupColumn("bytes", ImGuiTableColumnFlags_WidthFixed, letter * 8);
+  float widest = 0;
+  for (const burnish::EffectPlan& effect : plan.effects) widest = std::max(widest, effect.on == on ? ImGui::CalcTextSize(effect.name.c_str()).x : 0);
+  ImGui::TableSetupColumn("effect", ImGuiTableColumnFlags_WidthFixed, widest);
+  ImGui::TableSetupColumn("bytes", ImGuiTableColumnFlags_WidthFixed, ImGui::CalcTextSize("000.0 MB").x);
   ImGui::TableSetupColumn("why", ImGuiTableColumnFlags_WidthStretch);
   for (const burnish::EffectPlan& effect : plan.effects) {
     if (effect.on != on) continue;

@@ -2,7 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
+#include "output.h"
 #include "view_panels.h"
 
 namespace cli::viewer {
@@ -64,7 +66,29 @@ void chooseSizes(burnish::Quality& quality) {
   ImGui::SliderFloat("light threshold", &quality.lightThreshold, 1e-4f, 1, "%.4f lux", ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
   tooltip("irradiance under which a light without a range is cut off");
   ImGui::SliderInt("transparent layers", &quality.transparentLayers, 1, 64, "%d", ImGuiSliderFlags_AlwaysClamp);
+  ImGui::SliderFloat("resolution scale", &quality.resolutionScale, 0.25f, 1, "%.2f", ImGuiSliderFlags_AlwaysClamp);
+  tooltip("pixels that are shaded along a side, over those of the picture");
   ImGui::SliderFloat("bloom share", &quality.bloomShare, 0, 1, "%.2f", ImGuiSliderFlags_AlwaysClamp);
+}
+
+/// The file's name with a button for each way.
+void chooseFile(State& state) {
+  std::array<char, 512> name{};
+  state.qualityFile.copy(name.data(), name.size() - 1);
+  if (ImGui::InputText("file", name.data(), name.size())) state.qualityFile = name.data();
+  if (ImGui::SmallButton("save")) {
+    auto good = checkOutput(state.qualityFile);
+    if (good) good = burnish::writeQuality(state.qualityFile, state.quality, "from burnish view");
+    state.message = good ? "saved " + state.qualityFile : good.error().message();
+  }
+  tooltip("Rungs and sizes, for --quality FILE of every subcommand; the exposure is no part of it.");
+  ImGui::SameLine();
+  if (ImGui::SmallButton("load")) {
+    auto read = burnish::readQuality(state.qualityFile);
+    if (read) read->exposureEv = state.quality.exposureEv;
+    if (read) state.quality = *read;
+    state.message = read ? "loaded " + state.qualityFile : read.error().message();
+  }
 }
 
 }  // namespace
@@ -80,6 +104,8 @@ void qualityPanel(State& state) {
   for (std::size_t t = 0; t < burnish::terms().size(); ++t) chooseRung(state, t, idle);
   ImGui::Separator();
   chooseSizes(state.quality);
+  ImGui::Separator();
+  chooseFile(state);
 }
 
 }  // namespace cli::viewer

@@ -126,6 +126,7 @@ Result<void> Pictures::findDifference(const burnish::Scene& scene) {
   for (std::size_t i = 0; i < 2; ++i) {
     burnish::RenderRequest request;
     request.output = burnish::Output::Linear;
+    request.displayLight = true;  // with what the light buffer's format takes away
     burnish::Quality quality = i == 0 ? drawn_.a : drawn_.b;
     quality.exposureEv = exposureEv_;
     auto stats = drawSlot(kLinearA + i, scene, drawn_.view, quality, request);

@@ -3,13 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 
 namespace cli::viewer {
 using burnish::fail;
 using burnish::Result;
 
 burnish::Quality Other::of(const burnish::Quality& a) const {
-  burnish::Quality b = a;
+  burnish::Quality b = file.value_or(a);
+  b.toneMap = a.toneMap;
+  b.exposureEv = a.exposureEv;
   if (preset > 0) (void)burnish::setPreset(b, burnish::presetNames()[preset - 1]);
   for (const Set& set : sets) burnish::setRung(b, set.term, set.rung);
   return b;
@@ -17,17 +20,25 @@ burnish::Quality Other::of(const burnish::Quality& a) const {
 
 std::string Other::name() const {
   std::vector<std::string> parts;
+  if (file) parts.push_back(shown(std::filesystem::path(fileName).filename().string()));
   if (preset > 0) parts.emplace_back(burnish::presetNames()[preset - 1]);
   for (const Set& set : sets) parts.push_back(fmt::format("{}={}", burnish::terms()[set.term].name, burnish::terms()[set.term].rungs[set.rung].name));
   return parts.empty() ? "the same" : listed(parts);
 }
 
 Result<void> addWord(Other& other, const std::string& word) {
+  if (word.ends_with(".json")) {
+    auto read = burnish::readQuality(word);
+    if (!read) return fail(read.error());
+    other.file = *read;
+    other.fileName = word;
+    return {};
+  }
   const std::size_t equals = word.find('=');
   if (equals == std::string::npos) {
     const auto names = burnish::presetNames();
     const auto found = std::find(names.begin(), names.end(), word);
-    if (found == names.end()) return fail(word, "is neither TERM=RUNG nor a preset", fmt::format("presets: {}; 'burnish render --list-rungs' lists terms", fmt::join(names, ", ")));
+    if (found == names.end()) return fail(word, "is neither TERM=RUNG nor a preset nor a .json file", fmt::format("presets: {}; 'burnish render --list-rungs' lists terms", fmt::join(names, ", ")));
     other.preset = std::size_t(found - names.begin()) + 1;
     return {};
   }

@@ -28,7 +28,9 @@ struct Arguments {
 
 /// How quality B differs from A.
 struct Other {
-  std::size_t preset = 0;    ///< 0: as A; else presetNames()[preset - 1]
+  std::optional<burnish::Quality> file;  ///< read from fileName; its tone map and exposure do not count
+  std::string fileName;
+  std::size_t preset = 0;    ///< 0: as A, or as the file has it; else presetNames()[preset - 1]
   struct Set {
     std::size_t term, rung;
   };
@@ -36,7 +38,7 @@ struct Other {
   [[nodiscard]] burnish::Quality of(const burnish::Quality& a) const;
   [[nodiscard]] std::string name() const;  ///< "specular=ggx-smith"
 };
-/// "TERM=RUNG" or a preset, over what `other` has. The error text says what is wrong with the word.
+/// "TERM=RUNG", a preset or a quality file (a name that ends in .json), over what `other` has. The error text says what is wrong with the word.
 burnish::Result<void> addWord(Other& other, const std::string& word);
 
 struct State {
@@ -62,7 +64,7 @@ struct State {
   bool showUi = true, smallWhileMoving = true, continuous = false;
   std::string message;       ///< the last thing that happened, or went wrong
   bool savePicture = false, printCamera = false;  ///< asked for
-  std::string qualityFile = "quality.json";
+  std::string qualityFile = "quality.json";      ///< what is saved and loaded
 
   [[nodiscard]] burnish::Scene& scene() { return loaded.scene; }
   [[nodiscard]] burnish::Quality otherQuality() const { return other.of(quality); }

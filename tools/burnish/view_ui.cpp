@@ -40,8 +40,6 @@ void chooseLook(float scale) {
   style.ScaleAllSizes(scale);
 }
 
-bool typing() { return ImGui::GetIO().WantTextInput; }
-
 }  // namespace
 
 burnish::Result<std::unique_ptr<Ui>> Ui::open(GLFWwindow* window, float scale) {
@@ -104,7 +102,6 @@ void tooltip(std::string_view words) {
   ImGui::EndTooltip();
 }
 
-bool pressed(int key) { return !typing() && ImGui::IsKeyPressed(key, false); }
-bool held(int key) { return !typing() && ImGui::IsKeyDown(key); }
+bool held(int key) { return !ImGui::GetIO().WantTextInput && ImGui::IsKeyDown(key); }
 
 }  // namespace cli::viewer

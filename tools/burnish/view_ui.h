@@ -36,8 +36,7 @@ void dimText(std::string_view words);      ///< for what explains
 void wrappedDimText(std::string_view words);
 /// Shown while the mouse rests on the last item.
 void tooltip(std::string_view words);
-/// A key that was pressed just now (GLFW's number), unless text is being typed.
-bool pressed(int key);
+/// A key is down (GLFW's number), and no text is being typed.
 bool held(int key);
 
 /// A combo box over names. True when another was chosen.

@@ -68,7 +68,10 @@ void Window::listen() {
     ownerOf(of).awake_ = kAwakeFrames;
     ownerOf(of).lastEvent_ = Clock::now();
   };
-  glfwSetKeyCallback(window, [](GLFWwindow* of, int, int, int, int) { wake(of); });
+  glfwSetKeyCallback(window, [](GLFWwindow* of, int key, int, int action, int) {
+    wake(of);
+    if (action == GLFW_PRESS) ownerOf(of).presses_.push_back(key);
+  });
   glfwSetCharCallback(window, [](GLFWwindow* of, unsigned) { wake(of); });
   glfwSetMouseButtonCallback(window, [](GLFWwindow* of, int, int, int) { wake(of); });
   glfwSetCursorPosCallback(window, [](GLFWwindow* of, double, double) { wake(of); });

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <memory>
+#include <vector>
 
 #include "view_gl.h"
 #include "view_panels.h"
@@ -52,6 +53,7 @@ class Window {
   std::unique_ptr<Pictures> pictures_;
   Places places_;
   int awake_ = 3;              ///< frames that the panels are drawn for, whatever the pictures do
+  std::vector<int> presses_;   ///< keys that went down since the last frame
   bool moving_ = false, dragging_ = false;
   double fullMs_ = 0;          ///< wall time of the last whole frame
   long long heatOf_ = -1;      ///< Pictures::framesDrawn of the map in heat_
