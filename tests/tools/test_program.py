@@ -1123,22 +1123,6 @@ class Rungs(Program):
         self.assertEqual(set(report["rungs"]), set(self.listing()))
 
 
-
-
-class Storage(Program):
-    def test_scale_and_formats_reach_plan_and_picture(self):
-        def targets(*arguments):
-            plan = json.loads(self.good("plan", self.scene, "--size", "64x48", *arguments, "--json", "-").stdout)
-            return {t["name"]: t for t in plan["targets"]}
-        usual = targets()
-        self.assertEqual(targets("--scale", "0.5")["depth"]["bytes"] * 4, usual["depth"]["bytes"])
-        self.assertEqual(targets("--set", "normal-storage=oct-16")["gbuffer_b"]["format"], "RGBA16")
-        self.assertEqual(targets("--set", "light-buffer=r11g11b10")["light"]["format"], "R11F_G11F_B10F")
-        self.good("render", self.scene, "--size", "64x48", "--scale", "0.5", "-o", self.out / "half.png")
-        for wrong in ("0.1", "2", "half"):
-            self.bad(2, "render", self.scene, "--scale", wrong, "-o", self.out / "a.png", says=("0.25 to 1",))
-
-
 class Cost(Program):
     """What accuracy costs; tests/cost has the figures."""
     def cost(self, *arguments):
@@ -1337,8 +1321,6 @@ class Storage(Program):
         self.good("render", self.scene, "--size", "64x48", "--scale", "0.5", "-o", self.out / "half.png")
         for wrong in ("0.1", "2", "half"):
             self.bad(2, "render", self.scene, "--scale", wrong, "-o", self.out / "a.png", says=("0.25 to 1",))
-
-
 
 
 class Stability(Program):
