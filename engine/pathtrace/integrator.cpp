@@ -91,7 +91,7 @@ bool Integrator::meet(Path& path) const {
     path.features.albedo += kept * bsdf.layerAlbedo();
     path.features.normal += bsdf.surface().n * luminance(kept);
   }
-  if (!limited && !within) path.add(path.throughput * point.coverage * lit(point, bsdf, path.sampler), path.bounces == 0);
+  if (!limited && !within) path.add(path.throughput * point.coverage * lit(point, bsdf, path.sampler, path.bounces == 0), path.bounces == 0);
   if (point.passage != Passage::Opaque && goStraight(path, point, toRay, bsdf.albedoGuess() + luminance(bsdf.through()))) return survives(path);
   if (path.throughput == vec3(0)) return false;
   if (isGlass(point.passage) && point.passage != Passage::Pane && cross(path, point, bsdf)) return survives(path);

@@ -35,9 +35,10 @@ class Integrator {
   [[nodiscard]] bool looksForGlows(const Path& path, const Bsdf& bsdf) const;
   [[nodiscard]] bool survives(Path& path) const;
 
-  [[nodiscard]] glm::vec3 lit(const SurfacePoint& point, const Bsdf& bsdf, Sampler& sampler) const;
+  [[nodiscard]] glm::vec3 lit(const SurfacePoint& point, const Bsdf& bsdf, Sampler& sampler, bool first) const;
   [[nodiscard]] glm::vec3 litByLight(const SurfacePoint& point, const Bsdf& bsdf, const PunctualLight& light, const Received& received, Sampler& sampler) const;
-  [[nodiscard]] glm::vec3 litByEmitter(const SurfacePoint& point, const Bsdf& bsdf, Sampler& sampler) const;
+  [[nodiscard]] glm::vec3 litByEmitter(const SurfacePoint& point, const Bsdf& bsdf, Sampler& sampler, int looks) const;
+  [[nodiscard]] glm::vec3 fromEmitter(const SurfacePoint& point, const Bsdf& bsdf, const EmitterSample& light) const;
   [[nodiscard]] glm::vec3 litBySky(const SurfacePoint& point, const Bsdf& bsdf, Sampler& sampler) const;
   [[nodiscard]] float weight(float own, float other, bool surface) const;
 
