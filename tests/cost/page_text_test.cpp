@@ -2,10 +2,12 @@
 #include <burnish/measure.h>
 
 #include <catch2/catch.hpp>
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "cost/csv.h"
 #include "cost/json.h"
