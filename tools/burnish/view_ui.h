@@ -4,6 +4,7 @@
 #include <imgui.h>
 
 #include <glm/glm.hpp>
+#include <memory>
 #include <string>
 #include <string_view>
 
