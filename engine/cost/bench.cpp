@@ -48,6 +48,7 @@ Result<std::unique_ptr<Bench>> Bench::create(const ProcAddress& getProcAddress, 
   auto renderer = Renderer::create(getProcAddress);
   if (!renderer) return fail(renderer.error());
   b.renderer = std::move(*renderer);
+  b.finish = reinterpret_cast<void (*)()>(getProcAddress("glFinish"));
   for (const auto& [target, output] : {std::pair(&b.display, Output::Display), std::pair(&b.linear, Output::Linear)}) {
     auto made = OffscreenTarget::create(getProcAddress, size, output);
     if (!made) return fail(made.error());
@@ -89,6 +90,7 @@ Result<const Image*> Bench::picture(const Quality& quality) {
     if (kept->key == key) return &kept->picture;
   RenderRequest request;
   request.output = Output::Linear;
+  request.displayLight = true;  // what the light buffer rounds off is part of what a user sees
   if (const auto stats = b.renderer->render(b.scene, {&b.view, 1}, b.linear->target(), key, request); !stats) return fail(stats.error());
   b.targets = b.renderer->lastPlan().targets;
   auto read = b.linear->read();

@@ -15,6 +15,7 @@ struct Bench::Impl {
   std::unique_ptr<Renderer> renderer;
   std::unique_ptr<OffscreenTarget> display, linear;
   float exposureEv = 0;
+  void (*finish)() = nullptr;  ///< glFinish
 
   struct Kept {
     Quality key;

@@ -1,6 +1,7 @@
 #include "cost/ladder.h"
 
 #include <algorithm>
+#include <future>
 
 #include "cost/front.h"
 
@@ -14,6 +15,8 @@ std::size_t exactIndex(const Ladder& ladder) {
 }
 
 Result<void> stopped() { return fail("cost", "was stopped", "run it again"); }
+
+// How far a picture is off is found on a thread of its own while the driver makes the next one's program, which keeps one core. Times are taken once all those threads are done.
 
 std::vector<std::string> passesOf(const Bench& bench, const std::vector<Quality>& qualities) {
   std::vector<std::string> names;
@@ -65,17 +68,21 @@ Result<void> judge(Bench& bench, Ladder& ladder, const Against& against) {
   const auto exact = bench.picture(ladder.qualities[exactIndex(ladder)]);
   if (!exact) return fail(exact.error());
   ladder.cost.exactPicture = bench.developed(**exact);
+  ladder.whole.resize(ladder.qualities.size());
+  std::vector<std::future<void>> work;
   for (std::size_t i = 0; i < ladder.qualities.size(); ++i) {
     const auto picture = bench.picture(ladder.qualities[i]);
     if (!picture) return fail(picture.error());
-    RungCost& rung = ladder.cost.rungs[i];
-    rung.picture = bench.developed(**picture);
-    rung.exact = errorOf({**picture, rung.picture}, {**exact, ladder.cost.exactPicture});
-    ladder.whole.push_back(against(**picture, rung.picture));
-    if (against.truth()) rung.truth = ladder.whole.back();
-    rung.difference = differenceOf(**picture, **exact, bench.white());
+    work.push_back(std::async(std::launch::async, [&, i, linear = *picture] {
+      RungCost& rung = ladder.cost.rungs[i];
+      rung.picture = bench.developed(*linear);
+      rung.exact = errorOf({*linear, rung.picture}, {**exact, ladder.cost.exactPicture});
+      ladder.whole[i] = against(*linear, rung.picture);
+      if (against.truth()) rung.truth = ladder.whole[i];
+      rung.difference = differenceOf(*linear, **exact, bench.white());
+    }));
   }
-  return {};
+  return {};  // the futures wait for their threads
 }
 
 Result<void> timeRungs(Bench& bench, Ladder& ladder, int rounds, Clock& clock) {
@@ -89,6 +96,7 @@ Result<void> judgeBesideExact(Bench& bench, Ladder& ladder, Clock& clock, double
   const std::vector<Quality> qualities = besideExact(bench, ladder);
   const Image* exact = nullptr;
   Image exactDisplay;
+  std::vector<std::future<void>> work;
   // The exact rung first: without it the others' pictures say nothing.
   std::vector<std::size_t> order(qualities.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -103,10 +111,9 @@ Result<void> judgeBesideExact(Bench& bench, Ladder& ladder, Clock& clock, double
     const double before = clock.seconds();
     const auto picture = bench.picture(qualities[i]);
     if (!picture) return fail(picture.error());
-    const Image display = bench.developed(**picture);
-    if (!exact) exact = *picture, exactDisplay = display;
-    rung.exactRest = errorOf({**picture, display}, {*exact, exactDisplay});
+    if (!exact) exact = *picture, exactDisplay = bench.developed(*exact);
     rung.exactRestKnown = true;
+    work.push_back(std::async(std::launch::async, [&, linear = *picture] { rung.exactRest = errorOf({*linear, bench.developed(*linear)}, {*exact, exactDisplay}); }));
     slowest = std::max(slowest, clock.seconds() - before);
     if (clock.stopped()) return stopped();
   }

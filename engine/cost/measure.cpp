@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <fstream>
 
+#include "cost/choices.h"
 #include "cost/front.h"
 #include "cost/ladder.h"
 
@@ -13,7 +14,7 @@ namespace {
 using namespace cost;
 
 // Shares of the time after which the work goes on to the next part.
-constexpr double kTermsUntil = 0.62, kBesideExactUntil = 0.84;
+constexpr double kTermsUntil = 0.62, kBesideExactUntil = 0.84, kChoicesUntil = 0.98;
 constexpr int kLeastRounds = 3;
 
 std::string cpuName() {
@@ -25,10 +26,10 @@ std::string cpuName() {
 
 class Run {
  public:
-  Run(Bench& bench, const CostOptions& options, CostReport& out) : bench_(bench), options_(options), report_(out), clock_(options.minutes, options.progress) {}
+  Run(const ProcAddress& getProcAddress, Bench& bench, const CostOptions& options, CostReport& out) : getProcAddress_(getProcAddress), bench_(bench), options_(options), report_(out), clock_(options.minutes, options.progress) {}
 
   Result<void> all() {
-    for (auto step : {&Run::begin, &Run::presets, &Run::terms, &Run::besideExact, &Run::end})
+    for (auto step : {&Run::begin, &Run::presets, &Run::terms, &Run::besideExact, &Run::choices, &Run::end})
       if (auto done = (this->*step)(); !done) return done;
     return {};
   }
@@ -45,10 +46,12 @@ class Run {
   Result<void> presets();
   Result<void> terms();
   Result<void> besideExact();
+  Result<void> choices();
   Result<void> end();
   Result<void> addPoint(const Quality& quality, const Spread& ratio);
   [[nodiscard]] int roundsFor(std::size_t ladder) const;
 
+  const ProcAddress& getProcAddress_;
   Bench& bench_;
   const CostOptions& options_;
   CostReport& report_;
@@ -56,6 +59,7 @@ class Run {
   Against against_;
   Quality exact_;
   std::vector<Ladder> ladders_;
+  std::vector<TermCost> choices_;
   std::vector<std::pair<FrontPoint, Spread>> points_;  ///< with the ratio to the base's frame
   double frameSeconds_ = 0, pictureSeconds_ = 0;       ///< wall time of a base frame; of a rung's picture with what it is held against
 };
@@ -135,16 +139,19 @@ Result<void> Run::terms() {
   int fewest = options_.rounds;
   for (std::size_t i = 0; i < ladders_.size(); ++i) {
     Ladder& ladder = ladders_[i];
+    if (clock_.left(kBesideExactUntil) <= 0) {
+      for (std::size_t k = i; k < ladders_.size(); ++k) report_.idle.emplace_back(ladders_[k].cost.name, "the time was up");
+      ladders_.resize(i);
+      break;
+    }
     if (auto told = tell(0.05 + 0.6 * double(i) / double(ladders_.size()), ladder.cost.name); !told) return told;
     const double before = clock_.seconds();
     if (auto judged = judge(bench_, ladder, against_); !judged) return judged;
     seconds += clock_.seconds() - before, pictures += double(ladder.qualities.size());
     pictureSeconds_ = seconds / pictures;
-    if (clock_.left(kBesideExactUntil) > 0) {
-      const int rounds = roundsFor(i);
-      fewest = std::min(fewest, rounds);
-      if (auto timed = timeRungs(bench_, ladder, rounds, clock_); !timed) return timed;
-    }
+    const int rounds = roundsFor(i);
+    fewest = std::min(fewest, rounds);
+    if (auto timed = timeRungs(bench_, ladder, rounds, clock_); !timed) return timed;
     bench_.forget({&exact_, 1});
   }
   if (fewest < options_.rounds) report_.warnings.push_back(fmt::format("the time allowed {} rounds of the {} asked for in some terms: --minutes gives more", fewest, options_.rounds));
@@ -157,6 +164,17 @@ Result<void> Run::besideExact() {
     if (auto judged = judgeBesideExact(bench_, ladders_[i], clock_, options_.choices ? kBesideExactUntil : 1); !judged) return judged;
     bench_.forget({&exact_, 1});
   }
+  return {};
+}
+
+Result<void> Run::choices() {
+  if (!options_.choices) return {};
+  auto measured = measureChoices({getProcAddress_, bench_, against_, options_, clock_, kChoicesUntil});
+  if (!measured) return fail(measured.error());
+  choices_ = std::move(measured->terms);
+  report_.idle.insert(report_.idle.end(), measured->idle.begin(), measured->idle.end());
+  points_.insert(points_.end(), measured->points.begin(), measured->points.end());
+  bench_.forget({&exact_, 1});
   return {};
 }
 
@@ -177,6 +195,7 @@ Result<void> Run::end() {
     }
     report_.terms.push_back(std::move(ladder.cost));
   }
+  for (TermCost& choice : choices_) report_.terms.push_back(std::move(choice));
   for (auto& [point, ratio] : points_) {
     point.ms = times(ratio, base);
     report_.front.push_back(std::move(point));
@@ -192,8 +211,11 @@ Result<void> Run::end() {
 
 Result<void> check(const CostOptions& options) {
   if (options.size.x < 1 || options.size.y < 1) return fail("cost", fmt::format("its pictures are {} x {}", options.size.x, options.size.y), "give at least 1 x 1");
-  for (const std::string& name : options.terms)
-    if (std::none_of(terms().begin(), terms().end(), [&](const Term& t) { return t.name == name; })) return fail("cost", fmt::format("'{}' is no term", name), "burnish render --list-rungs lists them");
+  for (const std::string& name : options.terms) {
+    const bool term = std::any_of(terms().begin(), terms().end(), [&](const Term& t) { return t.name == name; });
+    const bool choice = std::find(costChoices().begin(), costChoices().end(), name) != costChoices().end();
+    if (!term && !choice) return fail("cost", fmt::format("'{}' is no term", name), "burnish render --list-rungs lists them");
+  }
   if (options.truth && (options.truth->radiance.width != options.size.x || options.truth->radiance.height != options.size.y))
     return fail("cost", fmt::format("the reference is {} x {} and the pictures {} x {}", options.truth->radiance.width, options.truth->radiance.height, options.size.x, options.size.y), "trace one of this size");
   return {};
@@ -211,7 +233,7 @@ Result<CostReport> measureCost(const ProcAddress& getProcAddress, const Scene& s
   out.backend = options.backend;
   out.cpu = cpuName();
   out.clock = (*bench)->clock();
-  if (auto run = Run(**bench, options, out).all(); !run) return fail(run.error());
+  if (auto run = Run(getProcAddress, **bench, options, out).all(); !run) return fail(run.error());
   return out;
 }
 

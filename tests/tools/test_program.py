@@ -1132,10 +1132,15 @@ class Cost(Program):
         self.assertTrue((self.out / "reference.exr").is_file())
         # The reference is taken up again: no second one is traced.
         before = (self.out / "reference.exr").read_bytes()
-        self.cost("--term", "lobe", "--reference", self.out / "reference.exr")
-        self.assertEqual((self.out / "reference.exr").read_bytes(), before)
+        for more in ["--reference", self.out / "reference.exr"], []:
+            self.cost("--term", "lobe", *more)
+            self.assertEqual((self.out / "reference.exr").read_bytes(), before)
+            again = json.loads((self.out / "cost.json").read_text())
+            self.assertEqual((again["base"]["error"], again["reference"]["samples"]), (report["base"]["error"], 4))
+        # Of another size it does not fit: another one is traced.
+        self.good("cost", self.scene, "-o", self.out, "--size", "32x32", "--rounds", "3", "--no-choices", "--term", "lobe", "--reference-spp", "2")
         again = json.loads((self.out / "cost.json").read_text())
-        self.assertEqual(again["base"]["error"], report["base"]["error"])
+        self.assertEqual((again["size"], again["reference"]["samples"]), ([32, 32], 2))
 
     def test_errors(self):
         self.bad(2, "cost", self.scene, says="--output")
@@ -1219,6 +1224,20 @@ class Budget(Program):
         for text in "", "fast", "0", "-3", "50%%", "%", "nan", "inf":
             self.bad(2, "cost", self.scene, "-o", self.out, f"--budget={text}", says="--budget")
             self.bad(2, "cost", self.scene, "-o", self.out, f"--target-error={text}", says="--target-error")
+
+
+class Storage(Program):
+    def test_scale_and_formats_reach_plan_and_picture(self):
+        def targets(*arguments):
+            plan = json.loads(self.good("plan", self.scene, "--size", "64x48", *arguments, "--json", "-").stdout)
+            return {t["name"]: t for t in plan["targets"]}
+        usual = targets()
+        self.assertEqual(targets("--scale", "0.5")["depth"]["bytes"] * 4, usual["depth"]["bytes"])
+        self.assertEqual(targets("--set", "normal-storage=oct-16")["gbuffer_b"]["format"], "RGBA16")
+        self.assertEqual(targets("--set", "light-buffer=r11g11b10")["light"]["format"], "R11F_G11F_B10F")
+        self.good("render", self.scene, "--size", "64x48", "--scale", "0.5", "-o", self.out / "half.png")
+        for wrong in ("0.1", "2", "half"):
+            self.bad(2, "render", self.scene, "--scale", wrong, "-o", self.out / "a.png", says=("0.25 to 1",))
 
 
 class Stability(Program):

@@ -18,7 +18,7 @@ using burnish::fail;
 using burnish::Result;
 
 constexpr double kReferenceShare = 0.29;  // of the time, where no number of samples is asked for
-constexpr int kMostSamples = 65536;
+constexpr int kMostSamples = 65536, kSamplesWithoutLimit = 256;
 
 struct CostArguments {
   SceneOptions scene;
@@ -66,18 +66,18 @@ std::string commandOf(const CostArguments& a) {
   return text + a.budgets.command();
 }
 
-/// Traces the ground truth, or goes on with what an earlier call left in the folder.
+/// Traces the ground truth, or takes up what an earlier call left in the folder: as many samples as that has, unless another number is asked for.
 Result<burnish::ReferencePicture> trace(const CostArguments& a, LoadedScene& loaded, Progress& progress) {
   burnish::Quality exact = a.scene.quality();
   (void)burnish::setPreset(exact, "exact");  // the name is known
+  const fs::path file = fs::path(a.output) / "reference.exr";
   burnish::ReferenceOptions options;
   options.size = a.scene.size;
-  options.samples = a.referenceSamples > 0 ? a.referenceSamples : kMostSamples;
+  options.samples = a.referenceSamples > 0 ? a.referenceSamples : a.minutes == 0 ? kSamplesWithoutLimit : kMostSamples;
   options.pixelArea = false;
   options.threads = a.scene.threads;
   options.state = fs::path(a.output) / "reference.state";
   const double limit = a.referenceSamples > 0 || a.minutes == 0 ? 1e9 : 60 * a.minutes * kReferenceShare;
-  if (a.referenceSamples == 0 && a.minutes == 0) options.samples = 256;
   progress.stage("tracing ground truth");
   options.progress = [&](const burnish::ReferenceProgress& p) {
     const double share = limit < 1e9 ? p.seconds / limit : double(p.samples) / double(p.of);
@@ -85,15 +85,15 @@ Result<burnish::ReferencePicture> trace(const CostArguments& a, LoadedScene& loa
     progress.step(int(1000 * std::min(share, 1.0)), 1000);
     return p.seconds < limit;
   };
-  auto picture = burnish::traceReference(loaded.scene, loaded.view, exact, options, loaded.report);
-  if (!picture) {
-    // What lies there may be of another scene, view or size.
-    std::error_code error;
-    if (!fs::remove(options.state, error)) return picture;
-    picture = burnish::traceReference(loaded.scene, loaded.view, exact, options, loaded.report);
-  }
+  std::error_code error;
+  burnish::ReferenceOptions kept = options;
+  if (a.referenceSamples == 0 && fs::exists(options.state, error))
+    if (const auto there = burnish::readReference(file)) kept.samples = there->samples;
+  auto picture = burnish::traceReference(loaded.scene, loaded.view, exact, kept, loaded.report);
+  // What lies there may be of another scene, view or size.
+  if (!picture && fs::remove(options.state, error)) picture = burnish::traceReference(loaded.scene, loaded.view, exact, options, loaded.report);
   if (picture)
-    if (auto written = burnish::writeReference(fs::path(a.output) / "reference.exr", *picture); !written) return fail(written.error());
+    if (auto written = burnish::writeReference(file, *picture); !written) return fail(written.error());
   return picture;
 }
 
@@ -151,6 +151,8 @@ int run(const CostArguments& a) {
   if (!a.noReference) {
     auto picture = a.reference.empty() ? trace(a, *loaded, progress) : burnish::readReference(a.reference);
     if (!picture) return failed(picture.error());
+    if (picture->pixelArea)
+      loaded->report.warn(a.reference, "its samples are spread over each pixel, and the renderer's go through the centres: edges count as errors (burnish reference --pixel centre)");
     truth = std::move(*picture);
   }
   const double minutes = a.minutes > 0 ? std::max(a.minutes - watch.seconds() / 60, 0.01) : 0;
@@ -187,7 +189,7 @@ Command addCost(CLI::App& program) {
   arguments->scene.size = {640, 360};
   arguments->scene.addTo(*app);
   app->add_option("-o,--output", arguments->output, "the folder for the page, its data and the reference; made if it is not there")->type_name("DIR")->required();
-  CLI::Option* given = app->add_option("--reference", arguments->reference, "ground truth that burnish reference wrote with --pixel-centers, in place of tracing it")->type_name("FILE");
+  CLI::Option* given = app->add_option("--reference", arguments->reference, "ground truth that burnish reference wrote with --pixel centre, in place of tracing it")->type_name("FILE");
   CLI::Option* samples = app->add_option("--reference-spp", arguments->referenceSamples, "samples of each pixel of ground truth; without: what a good quarter of the time gives")->type_name("N")->check(CLI::Range(1, 1000000));
   CLI::Option* none = app->add_flag("--no-reference", arguments->noReference, "no ground truth: errors are against exact rungs alone");
   given->excludes(samples)->excludes(none);
@@ -196,6 +198,8 @@ Command addCost(CLI::App& program) {
   app->add_option("--rounds", arguments->rounds, "pairs of frames behind each time, at most; fewer when the time runs short, but 3 (7)")->type_name("N")->check(CLI::Range(3, 1000));
   std::vector<std::string> names;
   for (const burnish::Term& term : burnish::terms()) names.emplace_back(term.name);
+  for (const std::string_view choice : burnish::costChoices())
+    if (std::find(names.begin(), names.end(), choice) == names.end()) names.emplace_back(choice);
   app->add_option_function<std::vector<std::string>>(
          "--term",
          [arguments, names](const std::vector<std::string>& texts) {

@@ -134,11 +134,13 @@ struct CostOptions {
   const ReferencePicture* truth = nullptr;  ///< not owned; of `size`; none: errors against ground truth are left out
   int rounds = 7;                      ///< pairs of frames, with the rung and without, at least 3
   double minutes = 12;                 ///< wall time to spend; fewer rounds and no timings with the exact rest when it runs short; 0: no limit
-  std::vector<std::string> terms;      ///< these alone; empty: all that the scene exercises
+  std::vector<std::string> terms;      ///< these alone, and choices by their names (costChoices()); empty: all that the scene exercises
   bool choices = true;                 ///< sizes, formats and layouts too
   std::string backend;                 ///< name for the report
   std::function<bool(double share, std::string_view what)> progress;  ///< false ends the work with an error
 };
+/// Names of the choices that are no terms, in the order in which they are measured: "normal-storage", "resolution-scale", ... (docs/storage.md).
+BURNISH_API std::span<const std::string_view> costChoices();
 /// Renders every rung of every term that the scene exercises in this view and holds time and error against the rest. The context must be current. Pictures are linear, without antialiasing,
 /// through pixel centres.
 BURNISH_API Result<CostReport> measureCost(const ProcAddress& getProcAddress, const Scene& scene, const View& view, const CostOptions& options, Report& report);

@@ -1,0 +1,29 @@
+// Pictures and times of other scenes than the bench's, or of its scene's light as a display has it.
+#pragma once
+#include "cost/bench.h"
+
+namespace burnish::cost {
+
+/// A renderer of its own beside the bench's, with the same view, size and exposure. What it uploads for a scene goes with the Studio.
+class Studio {
+ public:
+  /// The context must be current and stay so; the bench must outlive the studio.
+  static Result<std::unique_ptr<Studio>> create(const ProcAddress& getProcAddress, const Bench& bench);
+
+  /// F32 RGB, cd/m², as Bench::picture. displayLight: RenderRequest::displayLight.
+  Result<Image> picture(const Scene& scene, const Quality& quality, bool displayLight = false);
+  /// The frame of `scene` over that of the bench's scene, both with the base quality, each frame between two of the other's.
+  Result<Spread> ratio(const Scene& scene, int rounds, const std::function<bool()>& goOn);
+  /// Frees what is held for a scene.
+  void release(const Scene& scene) { renderer_->release(scene); }
+
+ private:
+  explicit Studio(const Bench& bench) : bench_(bench) {}
+  Result<double> frame(const Scene& scene);
+
+  const Bench& bench_;
+  std::unique_ptr<Renderer> renderer_;
+  std::unique_ptr<OffscreenTarget> display_, linear_;
+};
+
+}  // namespace burnish::cost
