@@ -22,7 +22,7 @@ namespace {
 
 bool longRun() { return std::getenv("BURNISH_LONG") != nullptr; }
 
-/// Balls of all kinds on a floor under a sun and some lamps.
+/// Balls of all kinds on a floor under a sun and, in long runs, some lamps.
 Scene bench(View& view) {
   Scene scene;
   Material floor;
@@ -40,7 +40,7 @@ Scene bench(View& view) {
   sun.castsShadow = true;
   sun.angularDiameter = 0.05f;
   test::addLight(scene, sun, {0, 5, 0}, {-0.5, -1, -0.4});
-  for (int i = 0; i < 6; ++i) test::addLight(scene, test::light(LightKind::Point, {0.5f + 0.1f * float(i), 0.8f, 1.1f - 0.1f * float(i)}, 2, 6), {2.2 * std::cos(i), 1.6, 2.2 * std::sin(i)});
+  for (int i = 0; i < 6 && longRun(); ++i) test::addLight(scene, test::light(LightKind::Point, {0.5f + 0.1f * float(i), 0.8f, 1.1f - 0.1f * float(i)}, 2, 6), {2.2 * std::cos(i), 1.6, 2.2 * std::sin(i)});
   scene.environment.color = {0.4f, 0.5f, 0.7f};
   view = lookAt({2.6, 2.4, 3.4}, {0, 0.3, 0}, {0, 1, 0}, 0.8f);
   return scene;
@@ -147,8 +147,8 @@ TEST_CASE("A budget's quality fits when it is timed again, and random rungs that
   const Scene scene = bench(view);
   CostOptions options;
   options.size = {160, 90};
-  options.terms = {"diffuse", "compensation", "shadow"};
-  if (longRun()) options.terms.insert(options.terms.end(), {"fresnel", "environment-specular", "geometry"});
+  options.terms = {"fresnel", "shadow"};  // each combination links two programs, most of a second each
+  if (longRun()) options.terms.insert(options.terms.end(), {"diffuse", "compensation", "environment-specular", "geometry"});
   options.choices = false;
   Subject subject(context->procAddress(), scene, view, options);
   Report warnings;
@@ -157,7 +157,7 @@ TEST_CASE("A budget's quality fits when it is timed again, and random rungs that
   print(subject, *results);
   for (const BudgetResult& r : *results) {
     const double budget = r.ms / subject.report.base.ms.median;
-    CHECK(r.measured > 10);
+    CHECK(r.measured > 7);  // more than the settings alone
     if (!r.met) continue;
     const Spread again = subject.ratio(r.best.quality, 11);
     INFO(fmt::format("{} of {}: {:.4f} ({:.4f} to {:.4f})", fmt::join(r.best.settings, ", "), budget, again.median, again.low, again.high));
@@ -169,7 +169,7 @@ TEST_CASE("A budget's quality fits when it is timed again, and random rungs that
   CHECK((*results)[1].met);  // the base itself takes 100 %
   CHECK((*results)[1].best.error.rms <= subject.report.base.error.rms);
   for (std::size_t i = 1; i < subject.report.front.size(); ++i) CHECK(subject.report.front[i].ms.median >= subject.report.front[i - 1].ms.median);
-  CHECK(subject.report.front.size() > 10);
+  CHECK(subject.report.front.size() > 7);
   const Draws draws = subject.draw(longRun() ? 200 : 50, *results);
   std::cout << fmt::format("{} random sets, {} timed, {} better {}\n", draws.drawn, draws.timed, draws.better, draws.worst);
   CHECK(draws.better == 0);
