@@ -96,7 +96,23 @@ Result<const Image*> Bench::picture(const Quality& quality) {
   auto read = b.linear->read();
   if (!read) return fail(read.error());
   b.pictures.push_back(std::make_unique<Impl::Kept>(Impl::Kept{key, withoutAlpha(*read)}));
+  hold(b.pictures.back()->picture);
   return &b.pictures.back()->picture;
+}
+
+void Bench::hold(Image& linear) const {
+  const float most = float(kShown * white());
+  for (std::size_t i = 0; i < linear.pixelCount() * std::size_t(linear.channels); ++i)
+    if (linear.f32()[i] > most) linear.f32()[i] = most;  // infinite ones too; what is no number stays
+}
+
+Bench::Truth Bench::held(const ReferencePicture& truth) const {
+  Truth held{truth.radiance, truth.variance};
+  hold(held.radiance);
+  const float most = float(kShown * white());
+  for (std::size_t i = 0; i < held.variance.pixelCount() * std::size_t(held.variance.channels); ++i)
+    if (held.radiance.f32()[i] >= most) held.variance.f32()[i] = 0;
+  return held;
 }
 
 void Bench::forget(std::span<const Quality> but) {

@@ -44,7 +44,16 @@ class Bench {
 
   /// What the renderer would do for the quality, as it is timed (display output).
   [[nodiscard]] FramePlan plan(const Quality& quality) const;
-  /// F32 RGB, cd/m², rows from top to bottom: linear, without antialiasing, through pixel centres. Rendered once for each quality and kept until forget(); the pointer holds until then.
+  /// Pictures hold each channel at this many whites: a display shows what is brighter as it shows this, and a mirrored lamp of a hundred whites would outweigh all other pixels in a mean of squares.
+  static constexpr double kShown = 4;
+  /// What is brighter is held there, as in pictures.
+  void hold(Image& linear) const;
+  /// Ground truth as pictures are held against it: radiance and variance. What is held has no noise.
+  struct Truth {
+    Image radiance, variance;
+  };
+  [[nodiscard]] Truth held(const ReferencePicture& truth) const;
+  /// F32 RGB, cd/m², rows from top to bottom: linear up to kShown whites, without antialiasing, through pixel centres. Rendered once for each quality and kept until forget(); the pointer holds until then.
   /// What only develops a picture (tone map, exposure, bloom, antialiasing) makes no difference.
   Result<const Image*> picture(const Quality& quality);
   /// Drops all pictures but the base's and those of these qualities.

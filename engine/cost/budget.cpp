@@ -51,12 +51,14 @@ Quality exactBeside(const Quality& base) {
 
 /// Ground truth, or a copy of the exact picture that outlives the bench's.
 struct Yardstick {
+  Bench::Truth truth;
   Image exact;
   Against against;
 };
 Result<void> makeYardstick(Bench& bench, const CostOptions& options, Yardstick& out) {
   if (options.truth) {
-    out.against = {&options.truth->radiance, &options.truth->variance, bench.developed(options.truth->radiance)};
+    out.truth = bench.held(*options.truth);
+    out.against = {&out.truth.radiance, &out.truth.variance, bench.developed(out.truth.radiance)};
     return {};
   }
   const auto picture = bench.picture(exactBeside(bench.base()));

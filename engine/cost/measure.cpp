@@ -56,6 +56,7 @@ class Run {
   const CostOptions& options_;
   CostReport& report_;
   Clock clock_;
+  Bench::Truth truth_;
   Against against_;
   Quality exact_;
   std::vector<Ladder> ladders_;
@@ -76,10 +77,11 @@ Result<void> Run::begin() {
   report_.exactPicture = bench_.developed(**exact);
   pictureSeconds_ = clock_.seconds() - before;
   if (const ReferencePicture* truth = options_.truth) {
-    against_ = {&truth->radiance, &truth->variance, bench_.developed(truth->radiance)};
+    truth_ = bench_.held(*truth);
+    against_ = {&truth_.radiance, &truth_.variance, bench_.developed(truth_.radiance)};
     report_.truthPicture = against_.display;
-    report_.baseDifference = differenceOf(**base, truth->radiance, bench_.white());
-    report_.exactDifference = differenceOf(**exact, truth->radiance, bench_.white());
+    report_.baseDifference = differenceOf(**base, truth_.radiance, bench_.white());
+    report_.exactDifference = differenceOf(**exact, truth_.radiance, bench_.white());
     report_.referenceSamples = truth->samples;
     report_.referenceNoise = truth->error;
   } else {

@@ -256,7 +256,7 @@ TEST_CASE("lights that reach no surface of a tile from its front: none that does
         directions.push_back(surface ? f64::unpackNormal(packed / 255.0) : dvec3(0));
       }
     lighting::TileSurfaces surfaces;
-    surfaces.begin(frame, depth, normals);
+    surfaces.begin(frame, depth, normals, NormalStorage::Oct12);
     for (int ty = 0; ty < 2; ++ty)
       for (int tx = 0; tx < 3; ++tx) {
         surfaces.load(tx, ty);

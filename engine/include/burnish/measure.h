@@ -66,7 +66,7 @@ struct Spread {
 };
 /// How far a picture is from another. Pixels that are not finite in either do not count, and are counted.
 struct PictureError {
-  double rms = 0;         ///< of the linear difference, over the rms of the other; the noise of a path-traced one is taken off
+  double rms = 0;         ///< of the linear difference, over the rms of the other, both held at four times the exposure's white; the noise of a path-traced one is taken off
   double rmsSpread = 0;   ///< standard error of rms from that noise; 0 between two pictures of the renderer
   double psnr = 0;        ///< dB, of the two as developed for a display; infinite where they are equal
   double perceptual = 0;  ///< Butteraugli's 3-norm of the developed pictures (libjxl): 1 is a difference that is just seen
