@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The order of rungs by error does not depend on the reference's noise: check_orders.py BURNISH [--scene fps] [--camera hero] [--size 96x54] [--spp 64] [--term TERM]...
+"""The order of rungs by error does not depend on the reference's noise: check_orders.py BURNISH [--scene fps] [--camera hero] [--size 96x54] [--probes DIR] [--spp 64] [--term TERM]...
 Traces three references of different seeds and measures the rungs against each. Two rungs whose errors differ by more than both spreads together must be in the same order against all three.
 Also: the errors against the exact rung are the same numbers each time, and a time that was measured before lies within the spread that was said then, for at least 4 of 5 rungs."""
 import argparse
@@ -15,6 +15,7 @@ parser.add_argument("burnish")
 parser.add_argument("--scene", default="fps")
 parser.add_argument("--camera", default="hero")
 parser.add_argument("--size", default="96x54")
+parser.add_argument("--probes")
 parser.add_argument("--spp", default="64")
 parser.add_argument("--rounds", default="5")
 parser.add_argument("--term", action="append")
@@ -30,7 +31,7 @@ def run(*command):
 
 def measured(seed, folder):
     file = folder / f"{seed}.exr"
-    view = ["--camera", arguments.camera, "--size", arguments.size]
+    view = ["--camera", arguments.camera, "--size", arguments.size] + (["--probes", arguments.probes] if arguments.probes else [])
     run("reference", arguments.scene, *view, "--seed", seed, "--spp", arguments.spp, "--pixel", "centre", "--quality", "exact", "-o", file)
     run("cost", arguments.scene, *view, "--reference", file, "--no-choices", "--rounds", arguments.rounds, "--minutes", 0, *sum((["--term", n] for n in names), []), "-o", folder / str(seed))
     report = json.loads((folder / str(seed) / "cost.json").read_text())
