@@ -1203,9 +1203,9 @@ class Reference(Program):
         self.assertGreaterEqual(report["samples"], 16)
 
     def test_interrupted_and_resumed(self):
-        whole = self.reference("--spp", "3000", "--threads", "1", output="whole.exr")
+        whole = self.reference("--spp", "8000", "--threads", "1", output="whole.exr")
         file = self.out / "a.exr"
-        command = [BURNISH, "reference", str(self.scene), "-o", str(file), "--size", "40x30", "--threads", "1", "--spp", "3000"]
+        command = [BURNISH, "reference", str(self.scene), "-o", str(file), "--size", "40x30", "--threads", "1", "--spp", "8000"]
         process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, stdin=subprocess.DEVNULL)
         said = ""
         while "tracing" not in said and process.poll() is None:
@@ -1215,12 +1215,12 @@ class Reference(Program):
         self.assertEqual(process.returncode, 1, errors)
         self.assertIn("--resume", errors)
         self.assertTrue(file.is_file() and pathlib.Path(str(file) + ".state").is_file())
-        report = self.reference("--spp", "3000", "--threads", "1", "--resume")
-        self.assertEqual(report["samples"], 3000)
+        report = self.reference("--spp", "8000", "--threads", "1", "--resume")
+        self.assertEqual(report["samples"], 8000)
         self.assertLess(report["seconds"], 2 * whole["seconds"] + 1)
         self.assertEqual(file.read_bytes(), (self.out / "whole.exr").read_bytes())
         # The state stays with --resume, is of these options alone, and goes without.
-        self.bad(1, "reference", self.scene, "-o", file, "--size", "40x30", "--spp", "3000", "--seed", "9", "--resume", says=("a.exr.state", "another picture"))
+        self.bad(1, "reference", self.scene, "-o", file, "--size", "40x30", "--spp", "8000", "--seed", "9", "--resume", says=("a.exr.state", "another picture"))
         self.reference("--spp", "8")
         self.assertFalse(pathlib.Path(str(file) + ".state").exists())
 

@@ -81,7 +81,7 @@ Result<burnish::ReferencePicture> trace(const CostArguments& a, LoadedScene& loa
   progress.stage("tracing ground truth");
   options.progress = [&](const burnish::ReferenceProgress& p) {
     const double share = limit < 1e9 ? p.seconds / limit : double(p.samples) / double(p.of);
-    progress.stage(fmt::format("tracing ground truth ({} samples a pixel, noise {:.2f} %)", p.samples, 100 * p.error));
+    progress.detail(fmt::format("{} samples a pixel, noise {:.2f} %", p.samples, 100 * p.error));
     progress.step(int(1000 * std::min(share, 1.0)), 1000);
     return p.seconds < limit;
   };
@@ -116,8 +116,9 @@ Result<Measured> measure(const CostArguments& a, LoadedScene& loaded, const burn
   options.terms = a.terms;
   options.choices = !a.noChoices;
   options.backend = burnish::backendName((*context)->backend());
+  progress.stage("measuring");
   options.progress = [&](double share, std::string_view what) {
-    progress.stage(fmt::format("measuring {}", what));
+    progress.detail(std::string(what));
     progress.step(int(1000 * share), 1000);
     return true;
   };

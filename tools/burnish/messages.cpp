@@ -69,12 +69,18 @@ Progress::Progress() : terminal_(isatty(STDERR_FILENO) == 1) {}
 void Progress::stage(std::string text) {
   const std::lock_guard lock(mutex_);
   text_ = shown(text);
+  detail_.clear();
   done_ = total_ = 0;
   secondsLeft_ = -1;
   began_ = Clock::now();
   nextPlain_ = began_ + std::chrono::seconds(1);
   ending_ = false;
   if (!thread_.joinable()) thread_ = std::thread([this] { watch(); });
+}
+
+void Progress::detail(std::string text) {
+  const std::lock_guard lock(mutex_);
+  detail_ = " (" + shown(text) + ")";
 }
 
 void Progress::step(int done, int total, double secondsLeft) {
@@ -105,11 +111,11 @@ void Progress::show(Clock::time_point now) {
   if (seconds < 1) return;
   const std::string count = total_ > 0 ? fmt::format(" {}/{}", done_, total_) : std::string(), left = secondsLeft_ >= 0 ? ", about " + duration(secondsLeft_) + " left" : std::string();
   if (terminal_) {
-    fmt::print(stderr, "\r\x1b[K{}{} {:.0f} s{}", text_, count, seconds, left);
+    fmt::print(stderr, "\r\x1b[K{}{}{} {:.0f} s{}", text_, detail_, count, seconds, left);
     std::fflush(stderr);
     lineShown_ = true;
   } else if (now >= nextPlain_) {
-    fmt::print(stderr, "burnish: {}{} ({:.0f} s{})\n", text_, count, seconds, left);
+    fmt::print(stderr, "burnish: {}{}{} ({:.0f} s{})\n", text_, detail_, count, seconds, left);
     nextPlain_ = now + std::chrono::seconds(10);
   }
 }

@@ -31,6 +31,7 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
   void stage(std::string text);    ///< what is being done from now on
+  void detail(std::string text);   ///< said beside the stage, which goes on
   void step(int done, int total, double secondsLeft = -1);  ///< how far it is; negative: how long the rest takes is not known
   void finish();                   ///< takes the line away; nothing is printed afterwards
 
@@ -42,7 +43,7 @@ class Progress {
   bool terminal_;
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::string text_;
+  std::string text_, detail_;
   int done_ = 0, total_ = 0;
   double secondsLeft_ = -1;
   bool ending_ = false, lineShown_ = false;

@@ -35,9 +35,9 @@ double secondsLeft(const ReferenceProgress& p, int first, double untilError) {
 
 void watch(ReferenceArguments& arguments, Progress& progress, ReferenceProgress& last) {
   arguments.options.progress = [&arguments, &progress, &last, first = -1](const ReferenceProgress& p) mutable {
-    if (first < 0) first = arguments.resume ? p.samples : 0;
+    if (first < 0) first = arguments.resume ? p.samples : 0, progress.stage("tracing, samples a pixel");
     last = p;
-    progress.stage(fmt::format("tracing: {} of {} samples a pixel, noise {:.2f} %, {:.0f} s", p.samples, p.of, 100 * p.error, p.seconds));
+    progress.detail(fmt::format("noise {:.2f} %", 100 * p.error));
     progress.step(p.samples, p.of, secondsLeft(p, first, arguments.options.untilError));
     return !stopAsked();
   };
