@@ -14,7 +14,7 @@ namespace {
 using namespace cost;
 
 // Shares of the time after which the work goes on to the next part.
-constexpr double kTermsUntil = 0.62, kBesideExactUntil = 0.84, kChoicesUntil = 0.98;
+constexpr double kTermsUntil = 0.66, kBesideExactUntil = 0.86, kChoicesUntil = 0.98;
 constexpr int kLeastRounds = 3;
 
 std::string cpuName() {
@@ -137,6 +137,8 @@ Result<void> Run::terms() {
     for (const auto& [rung, why] : term.leftOut) report_.idle.emplace_back(fmt::format("{}={}", burnish::terms()[term.term].name, rung), why);
     ladders_.push_back(ladderOf(bench_, std::move(term)));
   }
+  // Each rung costs its programs' compilation: where the time runs short, many terms of few rungs say more than one of many.
+  std::stable_sort(ladders_.begin(), ladders_.end(), [](const Ladder& a, const Ladder& b) { return a.qualities.size() < b.qualities.size(); });
   double pictures = 0, seconds = 0;
   int fewest = options_.rounds;
   for (std::size_t i = 0; i < ladders_.size(); ++i) {
@@ -197,6 +199,8 @@ Result<void> Run::end() {
     }
     report_.terms.push_back(std::move(ladder.cost));
   }
+  const auto place = [](const TermCost& cost) { return std::find_if(burnish::terms().begin(), burnish::terms().end(), [&](const Term& t) { return t.name == cost.name; }) - burnish::terms().begin(); };
+  std::stable_sort(report_.terms.begin(), report_.terms.end(), [&](const TermCost& a, const TermCost& b) { return place(a) < place(b); });
   for (TermCost& choice : choices_) report_.terms.push_back(std::move(choice));
   for (auto& [point, ratio] : points_) {
     point.ms = times(ratio, base);

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 using burnish::fail;
 using burnish::Result;
 
-constexpr double kReferenceShare = 0.29;  // of the time, where no number of samples is asked for
+constexpr double kReferenceShare = 0.2;  // of the time, where no number of samples is asked for
 constexpr int kMostSamples = 65536, kSamplesWithoutLimit = 256;
 
 struct CostArguments {
