@@ -10,7 +10,7 @@
 namespace burnish::cost {
 namespace {
 
-constexpr double kWidth = 960, kLeft = 262, kRight = 720, kText = 946, kFirst = 44, kRow = 28;
+constexpr double kWidth = 960, kLeft = 14, kRight = 720, kText = 946, kFirst = 40, kRow = 42;  // a name over each bar: they are sentences
 constexpr std::size_t kMost = 14;  // bars; the table has the rest
 
 }  // namespace
@@ -24,8 +24,7 @@ Plot contributorsPlot(const CostReport& cost) {
   const Axis axis(sizes, Axis::Scale::FromZero, kLeft, kRight, true);
   const double bottom = kFirst + kRow * static_cast<double>(std::max<std::size_t>(bars.size(), 1));
   Svg svg(kWidth, bottom + 30);
-  svg.text(14, 22, "gap to close", "strong");
-  svg.text(kLeft, 22, "what it takes off the error (rms)", "strong");
+  svg.text(kLeft, 22, "gap to close, and what that takes off the error (rms)", "strong");
   svg.text(kText, 22, "share of the error", "strong", "end");
   for (const AxisTick& t : axis.ticks()) {
     svg.line(t.at, kFirst - 8, t.at, bottom + 4, "grid");
@@ -33,10 +32,10 @@ Plot contributorsPlot(const CostReport& cost) {
   }
   for (std::size_t i = 0; i < bars.size(); ++i) {
     const auto& [name, gain] = bars[i];
-    const double y = kFirst + kRow * (static_cast<double>(i) + 0.5);
+    const double top = kFirst + kRow * static_cast<double>(i), y = top + 29;  // y: the bar's middle
     const bool share = std::isfinite(cost.base.error.rms) && cost.base.error.rms > 0;
     svg.beginGroup("row", fmt::format("{}: {} of rms", name, signedPercent(-gain)));
-    svg.text(14, y + 4, fitted(name, 12, kLeft - 28), "");
+    svg.text(kLeft, top + 15, fitted(name, 12, kText - kLeft), "");
     // A gap whose closing adds to the error is drawn hollow: errors of terms cancel there.
     svg.rect(kLeft, y - 7, axis.at(std::abs(gain)) - kLeft, 14, gain >= 0 ? "bar gain" : "hollow", 1.5);
     svg.text(axis.at(std::abs(gain)) + 8, y + 4, signedPercent(-gain), "");
