@@ -139,11 +139,11 @@ Result<void> Run::terms() {
   }
   // Each rung costs its programs' compilation: where the time runs short, many terms of few rungs say more than one of many.
   std::stable_sort(ladders_.begin(), ladders_.end(), [](const Ladder& a, const Ladder& b) { return a.qualities.size() < b.qualities.size(); });
-  double pictures = 0, seconds = 0;
+  double pictures = 0, seconds = 0, all = 0, rungSeconds = 0;  // rungSeconds: pictures and times of one, on the mean so far
   int fewest = options_.rounds;
   for (std::size_t i = 0; i < ladders_.size(); ++i) {
     Ladder& ladder = ladders_[i];
-    if (clock_.left(kBesideExactUntil) <= 0) {
+    if (clock_.left(kBesideExactUntil) <= double(ladder.qualities.size()) * rungSeconds) {
       for (std::size_t k = i; k < ladders_.size(); ++k) report_.idle.emplace_back(ladders_[k].cost.name, "the time was up");
       ladders_.resize(i);
       break;
@@ -156,6 +156,7 @@ Result<void> Run::terms() {
     const int rounds = roundsFor(i);
     fewest = std::min(fewest, rounds);
     if (auto timed = timeRungs(bench_, ladder, rounds, clock_); !timed) return timed;
+    all += clock_.seconds() - before, rungSeconds = all / pictures;
     bench_.forget({&exact_, 1});
   }
   if (fewest < options_.rounds) report_.warnings.push_back(fmt::format("the time allowed {} rounds of the {} asked for in some terms: --minutes gives more", fewest, options_.rounds));
