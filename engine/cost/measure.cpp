@@ -15,7 +15,7 @@ using namespace cost;
 
 // Shares of the time after which the work goes on to the next part.
 constexpr double kTermsUntil = 0.66, kBesideExactUntil = 0.86, kChoicesUntil = 0.98;
-constexpr int kLeastRounds = 3;
+constexpr int kLeastRounds = 3, kLeastTermRounds = 5;  // compiling a rung takes longer than five rounds of it, and of three the spread says little
 
 std::string cpuName() {
   std::ifstream file("/proc/cpuinfo");
@@ -123,11 +123,12 @@ Result<void> Run::presets() {
   return {};
 }
 
-/// As many as the time allows if all further ladders get as many; at least kLeastRounds.
+/// As many as the time allows if all further ladders get as many; at least kLeastTermRounds, unless fewer are asked for.
 int Run::roundsFor(std::size_t ladder) const {
   const double rungs = double(slots(ladder)), each = 2 * frameSeconds_;
   const double rounds = (clock_.left(kTermsUntil) - rungs * (pictureSeconds_ + each)) / std::max(rungs * each, 1e-9);
-  return std::clamp(int(std::min(rounds, 1e6)), kLeastRounds, std::max(options_.rounds, kLeastRounds));
+  const int least = std::min(options_.rounds, kLeastTermRounds);
+  return std::clamp(int(std::min(rounds, 1e6)), least, std::max(options_.rounds, least));
 }
 
 Result<void> Run::terms() {
