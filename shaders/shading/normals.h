@@ -55,7 +55,7 @@ FN vec2 packOctahedral(vec3 n, real middle, real last) {
 }
 
 FN vec3 unpackOctahedral(vec2 c, real middle, real last) {
-  return octahedralDecode(vec2(floor(c.x * last + R(0.5)) / middle - R(1.0), floor(c.y * last + R(0.5)) / middle - R(1.0)));
+  return octahedralDecode(vec2(floor(unitClamp(c.x) * last + R(0.5)) / middle - R(1.0), floor(unitClamp(c.y) * last + R(0.5)) / middle - R(1.0)));
 }
 
 // Their mean square errors (rad²) are that of 12 bits by the square of a code's step, and so the alpha to store beside a normal that is rounded so (roughness.h, storedAlpha).
