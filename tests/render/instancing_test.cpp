@@ -91,14 +91,18 @@ TEST_CASE("instanced draws give the picture of single draws, on both paths, and 
     CHECK(!uses(single));
     CHECK(a.stats.draws < b.stats.draws);
     CHECK(a.stats.triangles == b.stats.triangles);
-    // The vertex programs differ in how they get their matrices, which may cost the last bit of a float; the G-buffer does not show it.
+    // The vertex programs differ in how they get their matrices, which may cost the last bit of a float. Through the G-buffer that is nothing, but where a normal lies between two codes: then a step.
     double worst = 0;
+    int steps = 0;
     for (int y = 0; y < kSize.y; ++y)
       for (int x = 0; x < kSize.x; ++x) {
         const dvec3 d = glm::abs(a.at(x, y) - b.at(x, y)) / (a.at(x, y) + 1e-6);
-        worst = std::max({worst, d.x, d.y, d.z});
+        const double most = std::max({d.x, d.y, d.z});
+        if (path == Path::Deferred && most > 0 && most < 5e-3) ++steps;  // a code is 3e-4 rad, and slopes of the lobe are a few tens
+        else worst = std::max(worst, most);
       }
     CHECK(worst <= (path == Path::Deferred ? 0.0 : 1e-5));
+    CHECK(steps <= kSize.x * kSize.y / 5000);
     CHECK(a.stats.nonfinitePixels == 0);
   }
   int hits = 0;
