@@ -66,6 +66,9 @@ def ladders(r):
             row(rung["rung"] + mark, milliseconds(ms, rung.get("spread")), percent(rung["error"]["rms"]), percent(beside["rms"]) if beside else "-", percent(truth["rms"]) if truth else "-",
                 signed(rung["error"]["energy"]), "dominated" if rung["dominated"] else "")
         print()
+    late = [i["term"] for i in r["idle"] if "time was" in i["reason"]]
+    if late:
+        print(f"For these the time was too short: {', '.join(late)}.\n")
 
 
 def main():
