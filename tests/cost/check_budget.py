@@ -36,8 +36,9 @@ def main():
     parser.add_argument("--shares", default="50,75,100")
     parser.add_argument("--processes", type=int, default=5)
     parser.add_argument("--frames", type=int, default=15)
-    parser.add_argument("more", nargs="*")
-    options = parser.parse_args()
+    cut = sys.argv.index("--") if "--" in sys.argv else len(sys.argv)
+    options = parser.parse_args(sys.argv[1:cut])
+    options.more = sys.argv[cut + 1:]
     shares = [int(s) for s in options.shares.split(",")]
     files = [options.output / f"quality_{s}_percent.json" for s in shares]
     if not all(f.exists() for f in files):
