@@ -28,7 +28,7 @@ float held(float uv, Wrap wrap) {
 
 }  // namespace
 
-MapSampler::MapSampler(std::vector<Image> levels, const Sampler& sampler, bool srgb) : levels_(std::move(levels)), sampler_(sampler), srgb_(srgb), single_(size() == glm::ivec2(1)) {
+MapSampler::MapSampler(std::vector<Image> levels, const burnish::Sampler& sampler, bool srgb) : levels_(std::move(levels)), sampler_(sampler), srgb_(srgb), single_(size() == glm::ivec2(1)) {
   if (single_) only_ = texel(levels_[0], 0, 0);
 }
 
@@ -82,7 +82,7 @@ Maps::Maps() {
     std::copy_n(scene::kDefaultTexels[slot], 4, one.u8());
     std::vector<Image> levels;
     levels.push_back(std::move(one));
-    defaults_[std::size_t(slot)] = std::make_unique<MapSampler>(std::move(levels), Sampler{}, slot == 0 || slot == 4);
+    defaults_[std::size_t(slot)] = std::make_unique<MapSampler>(std::move(levels), burnish::Sampler{}, slot == 0 || slot == 4);
   }
 }
 

@@ -18,7 +18,7 @@ struct Footprint {
 class MapSampler {
  public:
   /// `levels`: as scene::levelsOf makes them. srgb: of the first three channels.
-  MapSampler(std::vector<Image> levels, const Sampler& sampler, bool srgb);
+  MapSampler(std::vector<Image> levels, const burnish::Sampler& sampler, bool srgb);
   [[nodiscard]] glm::vec4 at(const glm::vec2& uv, const Footprint& footprint) const;
   /// The same with the level given (GL's lambda): any number.
   [[nodiscard]] glm::vec4 atLevel(const glm::vec2& uv, float level) const;
@@ -28,7 +28,7 @@ class MapSampler {
   [[nodiscard]] glm::vec4 texel(const Image& level, int x, int y) const;
   [[nodiscard]] glm::vec4 inLevel(const Image& level, const glm::vec2& uv, bool linear) const;
   std::vector<Image> levels_;
-  Sampler sampler_;
+  burnish::Sampler sampler_;  ///< not the one that draws random numbers
   bool srgb_;
   bool single_ = false;  ///< one texel: `only_` everywhere
   glm::vec4 only_{0};
