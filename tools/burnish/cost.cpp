@@ -191,12 +191,12 @@ Command addCost(CLI::App& program) {
   arguments->scene.addTo(*app);
   app->add_option("-o,--output", arguments->output, "the folder for the page, its data and the reference; made if it is not there")->type_name("DIR")->required();
   CLI::Option* given = app->add_option("--reference", arguments->reference, "ground truth that burnish reference wrote with --pixel centre, in place of tracing it")->type_name("FILE");
-  CLI::Option* samples = app->add_option("--reference-spp", arguments->referenceSamples, "samples of each pixel of ground truth; without: what a good quarter of the time gives")->type_name("N")->check(CLI::Range(1, 1000000));
+  CLI::Option* samples = app->add_option("--reference-spp", arguments->referenceSamples, "samples of each pixel of ground truth; without: what a fifth of the time gives")->type_name("N")->check(CLI::Range(1, 1000000));
   CLI::Option* none = app->add_flag("--no-reference", arguments->noReference, "no ground truth: errors are against exact rungs alone");
   given->excludes(samples)->excludes(none);
   samples->excludes(none);
   app->add_option("--minutes", arguments->minutes, "wall time to spend, ground truth included; 0: no limit (13)")->type_name("M")->check(CLI::Range(0.0, 1e5));
-  app->add_option("--rounds", arguments->rounds, "pairs of frames behind each time, at most; fewer when the time runs short, but 3 (7)")->type_name("N")->check(CLI::Range(3, 1000));
+  app->add_option("--rounds", arguments->rounds, "pairs of frames behind each time, at most; fewer when the time runs short, but 5 (7)")->type_name("N")->check(CLI::Range(3, 1000));
   std::vector<std::string> names;
   for (const burnish::Term& term : burnish::terms()) names.emplace_back(term.name);
   for (const std::string_view choice : burnish::costChoices())
