@@ -11,8 +11,8 @@ namespace burnish::cost {
 namespace {
 
 constexpr std::array<std::string_view, 5> kLobeTerms{"specular", "distribution", "geometry", "normalization", "lobe"};
-/// Errors do not see what develops a picture or how light is stored on its way to it.
-constexpr std::array<std::string_view, 4> kUnseen{"antialiasing", "specular-antialiasing", "bloom", "light-buffer"};
+/// Left as the base has them: what pictures are compared without, and the format of the light buffer.
+constexpr std::array<std::string_view, 4> kLeftAlone{"antialiasing", "specular-antialiasing", "bloom", "light-buffer"};
 constexpr std::array<int, 4> kShadowResolutions{256, 512, 1024, 2048};
 constexpr std::array<float, 4> kScales{0.5f, 0.7071f, 0.85f, 1};
 constexpr double kSharedRung = 0.5;  ///< Factor::alike of two lobes for each rung in which they differ, and of neighbours in size
@@ -105,7 +105,7 @@ Factors::Factors(const Bench& bench, const std::vector<std::string>& only, bool 
   std::vector<const TermToMeasure*> lobe;
   for (const TermToMeasure& term : found.terms) {
     const std::string_view name = terms()[term.term].name;
-    if (contains(kUnseen, name)) continue;
+    if (contains(kLeftAlone, name)) continue;
     if (contains(kLobeTerms, name)) lobe.push_back(&term);
     else factors_.push_back(factorOf(term));
   }
@@ -119,7 +119,7 @@ Factors::Factors(const Bench& bench, const std::vector<std::string>& only, bool 
   };
   for (std::size_t t = 0; t < terms().size(); ++t) {
     const std::string_view name = terms()[t].name;
-    if (contains(kUnseen, name) || std::any_of(found.terms.begin(), found.terms.end(), [&](const TermToMeasure& m) { return m.term == t; })) continue;
+    if (contains(kLeftAlone, name) || std::any_of(found.terms.begin(), found.terms.end(), [&](const TermToMeasure& m) { return m.term == t; })) continue;
     if (std::any_of(found.idle.begin(), found.idle.end(), [&](const auto& i) { return i.first == name; })) {
       idle_.push_back(t);
     } else if (sizes && only.empty()) {  // measured among the choices, as how the G-buffer holds normals

@@ -15,6 +15,7 @@
 #include <span>
 #include <thread>
 
+#include "core/spawn_plan.h"
 #include "core/unique_fd.h"
 #include "core/write_pending.h"
 
@@ -25,25 +26,9 @@ using namespace std::chrono_literals;
 constexpr std::size_t kMostBytes = 64u << 20;
 constexpr unsigned char kSignature[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
 
-/// posix_spawn's settings, freed on all ways out.
-struct SpawnPlan {
-  posix_spawn_file_actions_t actions;
-  posix_spawnattr_t attributes;
-  SpawnPlan() {
-    posix_spawn_file_actions_init(&actions);
-    posix_spawnattr_init(&attributes);
-  }
-  SpawnPlan(const SpawnPlan&) = delete;
-  SpawnPlan& operator=(const SpawnPlan&) = delete;
-  ~SpawnPlan() {
-    posix_spawn_file_actions_destroy(&actions);
-    posix_spawnattr_destroy(&attributes);
-  }
-};
-
 /// The program with these as standard input and output, in a group of its own: Ctrl-C is for whoever called us.
 int start(const std::string& program, int input, int output, pid_t& pid) {
-  SpawnPlan plan;
+  core::SpawnPlan plan;
   posix_spawn_file_actions_adddup2(&plan.actions, input, 0);
   posix_spawn_file_actions_adddup2(&plan.actions, output, 1);
   posix_spawn_file_actions_addopen(&plan.actions, 2, "/dev/null", O_WRONLY, 0);

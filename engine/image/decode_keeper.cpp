@@ -15,6 +15,8 @@
 #include <cstring>
 #include <string>
 
+#include "core/spawn_plan.h"
+
 namespace burnish::image {
 namespace {
 
@@ -29,24 +31,8 @@ bool socketPair(core::UniqueFd& ours, core::UniqueFd& theirs) {
   return true;
 }
 
-/// posix_spawn's settings, freed on all ways out.
-struct SpawnPlan {
-  posix_spawn_file_actions_t actions;
-  posix_spawnattr_t attributes;
-  SpawnPlan() {
-    posix_spawn_file_actions_init(&actions);
-    posix_spawnattr_init(&attributes);
-  }
-  SpawnPlan(const SpawnPlan&) = delete;
-  SpawnPlan& operator=(const SpawnPlan&) = delete;
-  ~SpawnPlan() {
-    posix_spawn_file_actions_destroy(&actions);
-    posix_spawnattr_destroy(&attributes);
-  }
-};
-
 int spawn(const std::filesystem::path& helper, int socket, pid_t& pid) {
-  SpawnPlan plan;
+  core::SpawnPlan plan;
   posix_spawn_file_actions_adddup2(&plan.actions, socket, kKeeperSocket);
   posix_spawn_file_actions_addopen(&plan.actions, 1, "/dev/null", O_WRONLY, 0);
   posix_spawn_file_actions_addopen(&plan.actions, 2, "/dev/null", O_WRONLY, 0);
