@@ -1,5 +1,6 @@
 // The bench and what is measured with it, on small scenes.
 #include <algorithm>
+#include <cmath>
 
 #include "cost/measure_bed.h"
 #include "cost/metrics.h"
@@ -36,6 +37,31 @@ TEST_CASE("measure: the bench develops as the renderer does, and keeps pictures"
   // The same pixels from another bench on the same machine.
   Bed again(ball());
   CHECK(again.picture({}).data == linear.data);
+}
+
+TEST_CASE("measure: pictures and truth are held at four whites, where there is no noise either") {
+  Quality bright, dark;
+  bright.exposureEv = -3.0f;  // white is 0.15 cd/m2, four are 0.6: the sky of 1 is over it
+  dark.exposureEv = 3.0f;
+  Bed over(ball(), bright), under(ball(), dark);
+  const float most = float(4 * 1.2 / 8);
+  CHECK(over.picture(bright).f32()[0] == Approx(most).epsilon(1e-6));
+  CHECK(under.picture(dark).f32()[0] == Approx(1).epsilon(2e-3));
+  const Image &held = over.picture(bright), &whole = under.picture(dark);
+  for (std::size_t i = 0; i < 3 * held.pixelCount(); ++i)
+    if (std::abs(held.f32()[i] - std::min(whole.f32()[i], most)) > 4e-3f * most) FAIL("value " << i << ": " << held.f32()[i] << " of " << whole.f32()[i]);
+
+  ReferencePicture truth;
+  truth.radiance = makeImage(2, 1, 3, PixelType::F32);
+  truth.variance = makeImage(2, 1, 3, PixelType::F32);
+  const float radiance[] = {0.1f, 0.5f, 100, 0.59f, 0.61f, INFINITY}, variance[] = {1, 2, 3, 4, 5, 6};
+  std::copy_n(radiance, 6, truth.radiance.f32()), std::copy_n(variance, 6, truth.variance.f32());
+  const Bench::Truth t = over.bench->held(truth);
+  const float wanted[] = {0.1f, 0.5f, most, 0.59f, most, most}, noise[] = {1, 2, 0, 4, 0, 0};
+  for (std::size_t i = 0; i < 6; ++i) {
+    CHECK(t.radiance.f32()[i] == Approx(wanted[i]).epsilon(1e-6));
+    CHECK(t.variance.f32()[i] == noise[i]);
+  }
 }
 
 TEST_CASE("measure: a repeated time lies within its stated spread, and a rung that does more is slower") {
