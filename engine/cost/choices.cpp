@@ -114,24 +114,14 @@ Result<void> Run::measure(const QualityChoice& choice) {
   TermCost cost;
   cost.choice = true;
   cost.name = choice.name, cost.what = choice.what, cost.calledBy = choice.calledBy;
-  std::vector<Image> own(choice.settings.size());
   std::vector<const Image*> pictures;
   for (std::size_t i = 0; i < choice.settings.size(); ++i) {
     const Setting& s = choice.settings[i];
     RungCost& rung = cost.rungs.emplace_back();
     rung.name = s.name, rung.note = s.note, rung.inForce = s.inForce;
-    if (choice.displayLight) {
-      auto made = studio();
-      if (!made) return fail(made.error());
-      auto picture = (*made)->picture(r_.bench.scene(), s.quality, true);
-      if (!picture) return fail(picture.error());
-      own[i] = std::move(*picture);
-      pictures.push_back(&own[i]);
-    } else {
-      const auto picture = r_.bench.picture(s.quality);
-      if (!picture) return fail(picture.error());
-      pictures.push_back(*picture);
-    }
+    const auto picture = r_.bench.picture(s.quality);
+    if (!picture) return fail(picture.error());
+    pictures.push_back(*picture);
   }
   std::vector<PictureError> whole;
   judge(r_.bench, r_.against, cost, pictures, choice.exact, whole);

@@ -76,7 +76,6 @@ void Rows::lightBuffer() {
     setting(c, std::array{"r11g11b10", "rgba16f", "rgba32f"}[std::size_t(buffer)], q, plan.target("light") ? megabytes(plan.target("light")->bytes) : std::string());
   }
   c.exact = c.settings.size() - 1;
-  c.displayLight = true;
 }
 
 void Rows::shadowResolution() {

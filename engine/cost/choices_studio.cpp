@@ -18,19 +18,20 @@ Result<std::unique_ptr<Studio>> Studio::create(const ProcAddress& getProcAddress
   return studio;
 }
 
-Result<Image> Studio::picture(const Scene& scene, const Quality& quality, bool displayLight) {
+Result<Image> Studio::picture(const Scene& scene, const Quality& quality) {
   Quality q = quality;
   q.antialiasing = Antialiasing::None;
   q.bloom = Bloom::None;
   q.exposureEv = bench_.exposureEv();
   RenderRequest request;
   request.output = Output::Linear;
-  request.displayLight = displayLight;
+  request.displayLight = true;
   if (const auto stats = renderer_->render(scene, {&bench_.view(), 1}, linear_->target(), q, request); !stats) return fail(stats.error());
   auto read = linear_->read();
   if (!read) return fail(read.error());
   Image rgb = makeImage(read->width, read->height, 3, PixelType::F32);
   for (std::size_t i = 0; i < rgb.pixelCount(); ++i) std::memcpy(rgb.f32() + 3 * i, read->f32() + 4 * i, 3 * sizeof(float));
+  bench_.hold(rgb);
   return rgb;
 }
 

@@ -10,8 +10,8 @@ class Studio {
   /// The context must be current and stay so; the bench must outlive the studio.
   static Result<std::unique_ptr<Studio>> create(const ProcAddress& getProcAddress, const Bench& bench);
 
-  /// F32 RGB, cd/m², as Bench::picture. displayLight: RenderRequest::displayLight.
-  Result<Image> picture(const Scene& scene, const Quality& quality, bool displayLight = false);
+  /// F32 RGB, cd/m², as Bench::picture.
+  Result<Image> picture(const Scene& scene, const Quality& quality);
   /// The frame of `scene` over that of the bench's scene, both with the base quality, each frame between two of the other's.
   Result<Spread> ratio(const Scene& scene, int rounds, const std::function<bool()>& goOn);
   /// Frees what is held for a scene.
