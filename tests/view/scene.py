@@ -44,11 +44,12 @@ def text():
     times = add([0.0, 1.0, 2.0], "f", "SCALAR", 5126, min=[0.0], max=[2.0])
     moves = add([(0.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 0.0)], "f", "VEC3", 5126)
     return json.dumps({
-        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1, 2, 3, 4, 5]}], "extensionsUsed": ["KHR_lights_punctual"],
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1, 2, 3, 4, 5, 6]}], "extensionsUsed": ["KHR_lights_punctual"],
         "extensions": {"KHR_lights_punctual": {"lights": [{"type": "directional", "intensity": 3, "name": "sun"}, {"type": "point", "intensity": 20, "range": 12, "name": "lamp"}]}},
         "nodes": [{"mesh": 0, "name": "ball"}, {"mesh": 1, "name": "floor"}, {"camera": 0, "translation": [0, 0.5, 5]}, {"camera": 1, "translation": [1, 2, 8]},
                   {"extensions": {"KHR_lights_punctual": {"light": 0}}, "rotation": [-0.5, 0.2, 0, math.sqrt(1 - 0.29)]},
-                  {"extensions": {"KHR_lights_punctual": {"light": 1}}, "translation": [2, 2, 2]}],
+                  {"extensions": {"KHR_lights_punctual": {"light": 1}}, "translation": [2, 2, 2]},
+                  {"name": "place", "extras": {"burnish": {"probe": {}}}, "translation": [0, 2, 0], "scale": [8, 4, 8]}],
         "cameras": [{"name": n, "type": "perspective", "perspective": {"yfov": 0.8, "znear": 0.1}} for n in ("near", "far")],
         "materials": [{"name": "glossy", "pbrMetallicRoughness": {"baseColorFactor": [0.8, 0.2, 0.1, 1], "metallicFactor": 0, "roughnessFactor": 0.35}},
                       {"name": "dull", "pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.5, 0.5, 1], "metallicFactor": 0, "roughnessFactor": 0.9}}],

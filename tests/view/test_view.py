@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """burnish view, driven as its users drive it: test_view.py BURNISH [unittest arguments], under an X server (xvfb-run -a)."""
+import json
 import os
 import pathlib
 import re
@@ -22,6 +23,7 @@ SIZE = (640, 360)       # of the window
 SIDEBAR = 320           # half of it: the sidebar never takes more
 PICTURE = (320, 360)
 FIXED = ("--exposure", "1")
+PATIENCE = 60           # seconds: a machine with other work takes ten times as long now and then
 LABELS = 34             # rows at the top of a pane that its label may cover
 ENVIRONMENT = {**os.environ, "LIBGL_ALWAYS_SOFTWARE": "1"}
 if os.environ.get("BURNISH_SANITIZED") == "1":
@@ -209,7 +211,7 @@ class Live(View):
     def saved(self, window):
         before = set(self.folder.glob("burnish-*.png"))
         self.x.key(window, "F12")
-        for _ in range(100):
+        for _ in range(10 * PATIENCE):
             new = set(self.folder.glob("burnish-*.png")) - before
             if new:
                 return png.read(new.pop())
@@ -217,7 +219,7 @@ class Live(View):
         self.fail("F12 saved nothing")
 
     def ended(self, program, code):
-        self.assertEqual(program.wait(timeout=10), code)
+        self.assertEqual(program.wait(timeout=PATIENCE), code)
         self.assertEqual(without_progress(program.stderr.read()), "")
 
     def test_keys_mouse_and_closing(self):
@@ -242,6 +244,13 @@ class Live(View):
         self.x.delete(window)
         self.ended(program, 0)
 
+    def test_pictures_of_the_same_second_are_all_kept(self):
+        program, window = self.start("--panel", "none", *FIXED)
+        for _ in range(8):  # each waits for a file that was not there
+            self.saved(window)
+        self.x.delete(window)
+        self.ended(program, 0)
+
     def test_the_line_between_a_and_b_moves(self):
         program, window = self.start("--split", Comparison.RUNG, *FIXED)
         self.x.drag(window, (160, 100), (80, 100))
@@ -251,6 +260,49 @@ class Live(View):
         self.assertSame(picture[:, 82:], b[:, 82:])
         program.send_signal(signal.SIGINT)
         self.ended(program, -signal.SIGINT)
+
+    def test_the_quality_is_saved_and_loaded(self):
+        file = self.folder / "quality.json"
+        file.unlink(missing_ok=True)
+        self.addCleanup(file.unlink, missing_ok=True)
+        rungs = ("--set", "fresnel=none", "--set", "diffuse=lambert")
+        program, window = self.start("--panel", "none", *rungs, *FIXED)
+        self.x.control(window, "s", pause=0)
+        deadline = time.monotonic() + PATIENCE
+        while not file.exists():
+            self.assertLess(time.monotonic(), deadline, "Ctrl S saved nothing")
+            time.sleep(0.1)
+        self.assertSame(self.saved(window), self.render(*rungs, *FIXED, size=SIZE))
+        self.assertSame(self.render("--quality", "./quality.json", *FIXED, size=SIZE), self.render(*rungs, *FIXED, size=SIZE))
+        # Another one is taken up, one that is none is not.
+        other = json.loads(file.read_text())
+        other["terms"]["fresnel"], other["terms"]["diffuse"] = "schlick", "coupled-fit"
+        file.write_text(json.dumps(other))
+        self.x.control(window, "o")
+        time.sleep(0.5)
+        self.assertSame(self.saved(window), self.render(*FIXED, size=SIZE))
+        file.write_text("{}")
+        self.x.control(window, "o")
+        time.sleep(0.5)
+        self.assertSame(self.saved(window), self.render(*FIXED, size=SIZE))
+        self.x.delete(window)
+        self.ended(program, 0)
+
+    def test_light_from_probes_goes_and_comes_back(self):
+        result = self.run_it("bake", self.scene, "-o", "probes", "--size", "16", "--bounces", "1", "--backend", "egl")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        program, window = self.start("--panel", "none", "--probes", "probes", *FIXED)
+        lit, unlit = self.render("--probes", "probes", *FIXED, size=SIZE), self.render(*FIXED, size=SIZE)
+        self.assertDifferent(lit, unlit)
+        self.assertSame(self.saved(window), lit)
+        self.x.key(window, "l")
+        time.sleep(0.5)
+        self.assertSame(self.saved(window), unlit)
+        self.x.key(window, "l")
+        time.sleep(0.5)
+        self.assertSame(self.saved(window), lit)
+        self.x.delete(window)
+        self.ended(program, 0)
 
     def test_it_rests_when_nothing_changes(self):
         program, window = self.start()

@@ -5,6 +5,7 @@ import time
 
 KEY_PRESS, KEY_RELEASE, BUTTON_PRESS, BUTTON_RELEASE, CLIENT_MESSAGE = 2, 3, 4, 5, 33
 REVERT_TO_PARENT = 2
+CONTROL_MASK = 4
 
 
 class InputEvent(ctypes.Structure):
@@ -72,15 +73,23 @@ class Display:
         if focus.value != window:
             raise RuntimeError(f"the window takes no focus after {seconds} s")
 
-    def _send(self, window, kind, detail):
+    def _send(self, window, kind, detail, state=0):
         event = AnyEvent()
         e = event.input
+        e.state = state
         e.type, e.display, e.window, e.root, e.detail, e.same_screen = kind, self.display, window, self.root, detail, 1
         self.x.XSendEvent(self.display, ctypes.c_ulong(window), 0, ctypes.c_long(0), ctypes.byref(event))
         self.x.XSync(self.display, 0)
 
     def _code(self, name):
         return self.x.XKeysymToKeycode(self.display, ctypes.c_ulong(self.x.XStringToKeysym(name.encode())))
+
+    def control(self, window, name, pause=0.15):
+        """A key while control is held. Without a pause all of it may reach the window within one of its frames."""
+        control, key = self._code("Control_L"), self._code(name)
+        for kind, code, state in (KEY_PRESS, control, 0), (KEY_PRESS, key, CONTROL_MASK), (KEY_RELEASE, key, CONTROL_MASK), (KEY_RELEASE, control, CONTROL_MASK):
+            self._send(window, kind, code, state)
+            time.sleep(pause)
 
     def key(self, window, name, seconds=0.08):
         """Presses a key (an X keysym's name) for a while."""

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
-#include <vector>
 
 #include "view_window.h"
 
@@ -42,23 +41,28 @@ void switchLayout(State& state, Layout to) {
   if (state.layout != Layout::One) state.open[std::size_t(Panel::Compare)] = true;
 }
 
-/// `presses`: keys that went down since the last frame. ImGui alone would miss those that are up again: a frame may take longer than a tap.
-void takeKeys(State& state, const Places& places, const std::vector<int>& presses) {
-  const ImGuiIO& io = ImGui::GetIO();
-  if (io.KeyCtrl || io.WantTextInput) return;
-  const auto press = [&presses](int key) { return std::find(presses.begin(), presses.end(), key) != presses.end(); };
-  const float aspect = float(std::max(places.panes[0].size.x, 1)) / float(std::max(places.panes[0].size.y, 1));
-  if (press(GLFW_KEY_F)) state.frameAll(aspect);
-  if (press(GLFW_KEY_C)) switchLayout(state, Layout::Split);
-  if (press(GLFW_KEY_H)) switchLayout(state, Layout::Heat);
-  if (press(GLFW_KEY_V)) state.debugView = burnish::DebugView((std::size_t(state.debugView) + 1) % burnish::debugViewNames().size());
-  if (press(GLFW_KEY_P)) state.printCamera = true;
-  if (press(GLFW_KEY_F12)) state.savePicture = true;
-  if (press(GLFW_KEY_TAB)) state.showUi = !state.showUi;
-  if (press(GLFW_KEY_SPACE) && state.length > 0) state.playing = !state.playing;
+/// A key went down, with control held or not as it did so: a frame may take longer than a tap, and then both are up again.
+void takeKey(State& state, const Places& places, const Press& press) {
+  if (press.control) {
+    if (press.key == GLFW_KEY_S) state.saveQuality();
+    if (press.key == GLFW_KEY_O) state.loadQuality();
+    return;
+  }
+  if (ImGui::GetIO().WantTextInput) return;
+  switch (press.key) {
+    case GLFW_KEY_F: return state.frameAll(float(std::max(places.panes[0].size.x, 1)) / float(std::max(places.panes[0].size.y, 1)));
+    case GLFW_KEY_C: return switchLayout(state, Layout::Split);
+    case GLFW_KEY_H: return switchLayout(state, Layout::Heat);
+    case GLFW_KEY_V: state.debugView = burnish::DebugView((std::size_t(state.debugView) + 1) % burnish::debugViewNames().size()); return;
+    case GLFW_KEY_L: return state.lightFromProbes(state.putAside.has_value());
+    case GLFW_KEY_P: state.printCamera = true; return;
+    case GLFW_KEY_F12: state.savePicture = true; return;
+    case GLFW_KEY_TAB: state.showUi = !state.showUi; return;
+    case GLFW_KEY_SPACE: state.playing = state.length > 0 && !state.playing; return;
+  }
   const auto cameras = camerasOf(state.scene());
-  for (int i = 0; i < 9 && i < int(cameras.size()); ++i)
-    if (press(GLFW_KEY_1 + i)) state.lookThrough(cameras[std::size_t(i)].first);
+  const int camera = press.key - GLFW_KEY_1;
+  if (camera >= 0 && camera < std::min(9, int(cameras.size()))) state.lookThrough(cameras[std::size_t(camera)].first);
 }
 
 /// True while the line between A and B is dragged.
@@ -77,11 +81,13 @@ void Window::takeInput() {
   const auto now = Clock::now();
   // A first step after a rest is no leap.
   const double seconds = moving_ || state_.playing ? std::min(std::chrono::duration<double>(now - lastFrame_).count(), 0.5) : 0.016;
-  takeKeys(state_, places_, std::exchange(presses_, {}));
+  for (const Press& press : std::exchange(presses_, {})) {
+    takeKey(state_, places_, press);
+    if (press.control && press.key == GLFW_KEY_Q) glfwSetWindowShouldClose(static_cast<GLFWwindow*>(context_->window()), GLFW_TRUE);
+  }
   dragging_ = dragDivider(state_, places_, dragging_);
   moving_ = fly(state_, seconds);
   if (state_.playing) state_.pose(std::fmod(state_.time + seconds, std::max(state_.length, 1e-6)));
-  if (ImGui::GetIO().KeyCtrl && ImGui::IsKeyPressed(GLFW_KEY_Q, false)) glfwSetWindowShouldClose(static_cast<GLFWwindow*>(context_->window()), GLFW_TRUE);
 }
 
 }  // namespace cli::viewer

@@ -76,19 +76,10 @@ void chooseFile(State& state) {
   std::array<char, 512> name{};
   state.qualityFile.copy(name.data(), name.size() - 1);
   if (ImGui::InputText("file", name.data(), name.size())) state.qualityFile = name.data();
-  if (ImGui::SmallButton("save")) {
-    auto good = checkOutput(state.qualityFile);
-    if (good) good = burnish::writeQuality(state.qualityFile, state.quality, "from burnish view");
-    state.message = good ? "saved " + state.qualityFile : good.error().message();
-  }
+  if (ImGui::SmallButton("save")) state.saveQuality();
   tooltip("Rungs and sizes, for --quality FILE of every subcommand; the exposure is no part of it.");
   ImGui::SameLine();
-  if (ImGui::SmallButton("load")) {
-    auto read = burnish::readQuality(state.qualityFile);
-    if (read) read->exposureEv = state.quality.exposureEv;
-    if (read) state.quality = *read;
-    state.message = read ? "loaded " + state.qualityFile : read.error().message();
-  }
+  if (ImGui::SmallButton("load")) state.loadQuality();
 }
 
 }  // namespace

@@ -147,6 +147,7 @@ void keysPanel() {
       {"right mouse", "look around"},            {"wheel", "flying speed"},    {"F", "the whole scene in view"},
       {"1 to 9", "the scene's cameras"},         {"Space", "animation on, off"}, {"C", "compare: A | B"},
       {"H", "A, B and their difference"},        {"V", "the next debug view"}, {"P", "print the camera's options"},
+      {"L", "light from probes"},              {"Ctrl S", "save the quality"},  {"Ctrl O", "load the quality"},
       {"F12", "save the picture as PNG"},        {"Tab", "this sidebar"},      {"Ctrl Q", "quit"},
   };
   if (!ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) return;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "output.h"
+
 namespace cli::viewer {
 using burnish::fail;
 using burnish::Result;
@@ -101,7 +103,7 @@ void State::frameAll(float aspect) {
 }
 
 void State::lightFromProbes(bool on) {
-  if (on != putAside.has_value()) return;
+  if (on != putAside.has_value() || (!on && !scene().probes.lit())) return;
   const std::uint64_t revision = scene().probes.revision + 1;
   if (on)
     scene().probes = std::move(*putAside), putAside.reset();
@@ -109,6 +111,19 @@ void State::lightFromProbes(bool on) {
     putAside = std::exchange(scene().probes, burnish::ProbeSet{});
   scene().probes.revision = std::max(revision, scene().probes.revision + 1);
   ++moment;
+}
+
+void State::saveQuality() {
+  auto good = checkOutput(qualityFile);
+  if (good) good = burnish::writeQuality(qualityFile, quality, "from burnish view");
+  message = good ? "saved " + qualityFile : good.error().message();
+}
+
+void State::loadQuality() {
+  auto read = burnish::readQuality(qualityFile);
+  if (read) read->exposureEv = quality.exposureEv;
+  if (read) quality = *read;
+  message = read ? "loaded " + qualityFile : read.error().message();
 }
 
 std::vector<std::pair<burnish::Id<burnish::Camera>, std::string>> camerasOf(const burnish::Scene& scene) {

@@ -71,7 +71,9 @@ struct State {
   void pose(double seconds);              ///< moves the animations there
   void lookThrough(burnish::Id<burnish::Camera> id);
   void frameAll(float aspect);            ///< shows the whole scene
-  void lightFromProbes(bool on);
+  void lightFromProbes(bool on);           ///< nothing changes where no probes were loaded
+  void saveQuality();                     ///< A as `qualityFile`; `message` says how it went
+  void loadQuality();                     ///< likewise; the exposure stays
 };
 
 /// The scene's cameras, in order, with names for people.

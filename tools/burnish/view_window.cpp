@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <ctime>
+#include <filesystem>
 #include <thread>
 
 #include "output.h"
@@ -68,9 +69,9 @@ void Window::listen() {
     ownerOf(of).awake_ = kAwakeFrames;
     ownerOf(of).lastEvent_ = Clock::now();
   };
-  glfwSetKeyCallback(window, [](GLFWwindow* of, int key, int, int action, int) {
+  glfwSetKeyCallback(window, [](GLFWwindow* of, int key, int, int action, int modifiers) {
     wake(of);
-    if (action == GLFW_PRESS) ownerOf(of).presses_.push_back(key);
+    if (action == GLFW_PRESS) ownerOf(of).presses_.push_back({key, (modifiers & GLFW_MOD_CONTROL) != 0});
   });
   glfwSetCharCallback(window, [](GLFWwindow* of, unsigned) { wake(of); });
   glfwSetMouseButtonCallback(window, [](GLFWwindow* of, int, int, int) { wake(of); });
@@ -183,7 +184,9 @@ Result<void> Window::saveScreenshot() { return writePicture(arguments_.screensho
 
 /// The pictures as they stand in the window, before anything is written over them.
 void Window::savePicture() {
-  const std::string file = fmt::format("burnish-{:%Y%m%d-%H%M%S}.png", fmt::localtime(std::time(nullptr)));
+  const std::string stem = fmt::format("burnish-{:%Y%m%d-%H%M%S}", fmt::localtime(std::time(nullptr)));
+  std::string file = stem + ".png";
+  for (int more = 2; std::filesystem::exists(file); ++more) file = fmt::format("{}-{}.png", stem, more);  // of the same second
   auto good = checkOutput(file);
   if (good) good = writePicture(file, gl_->readWindow(places_.picture));
   state_.message = good ? "saved " + file : good.error().message();

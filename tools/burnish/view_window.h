@@ -14,6 +14,12 @@
 
 namespace cli::viewer {
 
+/// A key that went down: GLFW's number of it.
+struct Press {
+  int key = 0;
+  bool control = false;  ///< was held
+};
+
 class Window {
  public:
   /// Opens the window. `loaded` stays the caller's and must outlive it.
@@ -53,7 +59,7 @@ class Window {
   std::unique_ptr<Pictures> pictures_;
   Places places_;
   int awake_ = 3;              ///< frames that the panels are drawn for, whatever the pictures do
-  std::vector<int> presses_;   ///< keys that went down since the last frame
+  std::vector<Press> presses_; ///< since the last frame, in order
   bool moving_ = false, dragging_ = false;
   double fullMs_ = 0;          ///< wall time of the last whole frame
   long long heatOf_ = -1;      ///< Pictures::framesDrawn of the map in heat_
