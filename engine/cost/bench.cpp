@@ -2,30 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "cost/bench_impl.h"
 #include "reference/shading.h"
 
 namespace burnish::cost {
 namespace {
-
-/// Everything that shades as `quality` does has this key: what develops a picture is taken out.
-Quality keyOf(Quality quality, float exposureEv) {
-  const Quality usual;
-  quality.antialiasing = Antialiasing::None;
-  quality.bloom = Bloom::None;
-  quality.bloomShare = usual.bloomShare;
-  quality.toneMap = usual.toneMap;
-  quality.exposureEv = exposureEv;  // the light buffer's range is centred on it
-  return quality;
-}
-
-Image withoutAlpha(const Image& rgba) {
-  Image rgb = makeImage(rgba.width, rgba.height, 3, PixelType::F32);
-  for (std::size_t i = 0; i < rgba.pixelCount(); ++i) std::memcpy(rgb.f32() + 3 * i, rgba.f32() + 4 * i, 3 * sizeof(float));
-  return rgb;
-}
 
 glm::vec3 toneMapped(ToneMap curve, glm::vec3 c) {
   switch (curve) {
@@ -45,7 +27,7 @@ Result<std::unique_ptr<Bench>> Bench::create(const ProcAddress& getProcAddress, 
   std::unique_ptr<Bench> bench(new Bench);
   bench->impl_ = std::make_unique<Impl>(scene, view, size, base, report);
   Impl& b = *bench->impl_;
-  auto renderer = Renderer::create(getProcAddress);
+  auto renderer = Renderer::create(getProcAddress, {.linkOnDemand = true});
   if (!renderer) return fail(renderer.error());
   b.renderer = std::move(*renderer);
   b.finish = reinterpret_cast<void (*)()>(getProcAddress("glFinish"));
@@ -83,23 +65,6 @@ FramePlan Bench::plan(const Quality& quality) const {
   return makePlan(impl_->scene, {&impl_->view, 1}, quality, capabilities(), options);
 }
 
-Result<const Image*> Bench::picture(const Quality& quality) {
-  Impl& b = *impl_;
-  const Quality key = keyOf(quality, b.exposureEv);
-  for (const auto& kept : b.pictures)
-    if (kept->key == key) return &kept->picture;
-  RenderRequest request;
-  request.output = Output::Linear;
-  request.displayLight = true;  // what the light buffer rounds off is part of what a user sees
-  if (const auto stats = b.renderer->render(b.scene, {&b.view, 1}, b.linear->target(), key, request); !stats) return fail(stats.error());
-  b.targets = b.renderer->lastPlan().targets;
-  auto read = b.linear->read();
-  if (!read) return fail(read.error());
-  b.pictures.push_back(std::make_unique<Impl::Kept>(Impl::Kept{key, withoutAlpha(*read)}));
-  hold(b.pictures.back()->picture);
-  return &b.pictures.back()->picture;
-}
-
 void Bench::hold(Image& linear) const {
   const float most = float(kShown * white());
   for (std::size_t i = 0; i < linear.pixelCount() * std::size_t(linear.channels); ++i)
@@ -113,13 +78,6 @@ Bench::Truth Bench::held(const ReferencePicture& truth) const {
   for (std::size_t i = 0; i < held.variance.pixelCount() * std::size_t(held.variance.channels); ++i)
     if (held.radiance.f32()[i] >= most) held.variance.f32()[i] = 0;
   return held;
-}
-
-void Bench::forget(std::span<const Quality> but) {
-  Impl& b = *impl_;
-  std::vector<Quality> keys{keyOf(b.base, b.exposureEv)};
-  for (const Quality& q : but) keys.push_back(keyOf(q, b.exposureEv));
-  std::erase_if(b.pictures, [&](const auto& kept) { return std::find(keys.begin(), keys.end(), kept->key) == keys.end(); });
 }
 
 Image Bench::developed(const Image& linear) const {

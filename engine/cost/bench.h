@@ -16,6 +16,9 @@ Spread spreadOf(std::vector<double> values);
 /// The spread of a product of independent figures: relative widths add up in squares.
 Spread times(const Spread& a, const Spread& b);
 
+/// Opens a context and makes it current on the calling thread.
+using ContextMaker = std::function<Result<std::unique_ptr<Context>>()>;
+
 /// Times of one quality. Milliseconds of the bench's clock.
 struct Timing {
   Spread frame;                          ///< the sum of all passes
@@ -56,6 +59,12 @@ class Bench {
   /// F32 RGB, cd/m², rows from top to bottom: linear up to kShown whites, without antialiasing, through pixel centres. Rendered once for each quality and kept until forget(); the pointer holds until then.
   /// What only develops a picture (tone map, exposure, bloom, antialiasing) makes no difference.
   Result<const Image*> picture(const Quality& quality);
+  /// picture() of each, in their order: the pointers hold until forget(). With an assistant it makes a part of them at the same time. `goOn` is asked before each, on either thread: false leaves
+  /// out (nullptr) what is not there yet.
+  Result<std::vector<const Image*>> pictures(std::span<const Quality> qualities, const std::function<bool()>& goOn = {});
+  /// From now on pictures() has half of its work done on a second thread, whose context `open` makes current there: drivers compile on one thread, and where they keep compiled programs for all contexts (Mesa's
+  /// shader cache) those need not be made again here. Where no context comes, all goes on as before, with a warning.
+  void assist(ContextMaker open);
   /// Drops all pictures but the base's and those of these qualities.
   void forget(std::span<const Quality> but = {});
   /// U8 RGB: tone map of the base, exposure of the bench (shaders/shading/tonemap.h).

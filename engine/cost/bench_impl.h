@@ -1,5 +1,6 @@
 // What a bench holds.
 #pragma once
+#include "cost/assistant.h"
 #include "cost/bench.h"
 
 namespace burnish::cost {
@@ -22,6 +23,10 @@ struct Bench::Impl {
     Image picture;
   };
   std::vector<std::unique_ptr<Kept>> pictures;
+  std::unique_ptr<Assistant> assistant;  ///< makes pictures too; goes before what it reads
+
+  [[nodiscard]] const Image* kept(const Quality& key) const;
+  Result<Image> shoot(const Quality& key);  ///< with the bench's own renderer
 
   std::vector<TargetPlan> targets;     ///< of the frame before
   std::vector<double> baseMedians;     ///< of the calls of time()

@@ -73,9 +73,14 @@ Instrument instrumentOf(Bench& bench, const Factors& factors, const Against& aga
   out.picture = [&](const Choice& choice) -> Result<std::pair<Image, PictureError>> {
     const auto picture = bench.picture(factors.quality(choice));
     if (!picture) return fail(picture.error());
-    std::pair<Image, PictureError> result{**picture, against(**picture, bench.developed(**picture))};
+    return std::pair<Image, PictureError>{**picture, against(**picture, bench.developed(**picture))};
+  };
+  out.prepare = [&](const std::vector<Choice>& choices) -> Result<void> {
     bench.forget();
-    return result;
+    std::vector<Quality> qualities;
+    for (const Choice& choice : choices) qualities.push_back(factors.quality(choice));
+    const auto pictures = bench.pictures(qualities);
+    return pictures ? Result<void>() : fail(pictures.error());
   };
   out.time = [&](const std::vector<Choice>& choices, int rounds) -> Result<std::vector<Spread>> {
     std::vector<Quality> qualities;
@@ -101,6 +106,7 @@ Result<std::vector<BudgetResult>> spendBudget(const ProcAddress& getProcAddress,
   Clock clock(limited ? minutes : 0, budgets.front().progress);
   auto bench = Bench::create(getProcAddress, scene, view, options.size, options.base, report);
   if (!bench) return fail(bench.error());
+  (*bench)->assist(options.secondContext);
   Yardstick yardstick;
   if (auto made = makeYardstick(**bench, options, yardstick); !made) return fail(made.error());
 

@@ -114,17 +114,16 @@ Result<void> Run::measure(const QualityChoice& choice) {
   TermCost cost;
   cost.choice = true;
   cost.name = choice.name, cost.what = choice.what, cost.calledBy = choice.calledBy;
-  std::vector<const Image*> pictures;
-  for (std::size_t i = 0; i < choice.settings.size(); ++i) {
-    const Setting& s = choice.settings[i];
+  std::vector<Quality> qualities;
+  for (const Setting& s : choice.settings) {
     RungCost& rung = cost.rungs.emplace_back();
     rung.name = s.name, rung.note = s.note, rung.inForce = s.inForce;
-    const auto picture = r_.bench.picture(s.quality);
-    if (!picture) return fail(picture.error());
-    pictures.push_back(*picture);
+    qualities.push_back(s.quality);
   }
+  const auto pictures = r_.bench.pictures(qualities);
+  if (!pictures) return fail(pictures.error());
   std::vector<PictureError> whole;
-  judge(r_.bench, r_.against, cost, pictures, choice.exact, whole);
+  judge(r_.bench, r_.against, cost, *pictures, choice.exact, whole);
   std::vector<Spread> ratios;
   if (auto timed = timeQualities(choice, cost, ratios); !timed) return timed;
   for (std::size_t i = 0; i < cost.rungs.size(); ++i)

@@ -1,6 +1,6 @@
 // Choices that change the scene, not the quality: how its surroundings are filtered, and its probes.
 #pragma once
-#include "cost/choices_studio.h"
+#include "cost/studio.h"
 
 namespace burnish::cost {
 

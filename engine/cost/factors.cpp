@@ -14,7 +14,7 @@ constexpr std::array<std::string_view, 5> kLobeTerms{"specular", "distribution",
 /// Left as the base has them: what pictures are compared without, and the format of the light buffer.
 constexpr std::array<std::string_view, 4> kLeftAlone{"antialiasing", "specular-antialiasing", "bloom", "light-buffer"};
 constexpr std::array<int, 4> kShadowResolutions{256, 512, 1024, 2048};
-constexpr std::array<float, 4> kScales{0.5f, 0.7071f, 0.85f, 1};
+constexpr std::array<float, 5> kScales{0.3536f, 0.5f, 0.7071f, 0.85f, 1};
 constexpr double kSharedRung = 0.5;  ///< Factor::alike of two lobes for each rung in which they differ, and of neighbours in size
 
 template <class List>

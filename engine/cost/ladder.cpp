@@ -16,7 +16,7 @@ std::size_t exactIndex(const Ladder& ladder) {
 
 Result<void> stopped() { return fail("cost", "was stopped", "run it again"); }
 
-// How far a picture is off is found on a thread of its own while the driver makes the next one's program, which keeps one core. Times are taken once all those threads are done.
+// How far pictures are off is found on a thread for each. Times are taken once all those are done.
 
 std::vector<std::string> passesOf(const Bench& bench, const std::vector<Quality>& qualities) {
   std::vector<std::string> names;
@@ -65,21 +65,20 @@ Ladder ladderOf(const Bench& bench, TermToMeasure what) {
 }
 
 Result<void> judge(Bench& bench, Ladder& ladder, const Against& against) {
-  const auto exact = bench.picture(ladder.qualities[exactIndex(ladder)]);
-  if (!exact) return fail(exact.error());
-  ladder.cost.exactPicture = bench.developed(**exact);
+  const auto pictures = bench.pictures(ladder.qualities);
+  if (!pictures) return fail(pictures.error());
+  const Image& exact = *(*pictures)[exactIndex(ladder)];
+  ladder.cost.exactPicture = bench.developed(exact);
   ladder.whole.resize(ladder.qualities.size());
   std::vector<std::future<void>> work;
   for (std::size_t i = 0; i < ladder.qualities.size(); ++i) {
-    const auto picture = bench.picture(ladder.qualities[i]);
-    if (!picture) return fail(picture.error());
-    work.push_back(std::async(std::launch::async, [&, i, linear = *picture] {
+    work.push_back(std::async(std::launch::async, [&, i, linear = (*pictures)[i]] {
       RungCost& rung = ladder.cost.rungs[i];
       rung.picture = bench.developed(*linear);
-      rung.exact = errorOf({*linear, rung.picture}, {**exact, ladder.cost.exactPicture});
+      rung.exact = errorOf({*linear, rung.picture}, {exact, ladder.cost.exactPicture});
       ladder.whole[i] = against(*linear, rung.picture);
       if (against.truth()) rung.truth = ladder.whole[i];
-      rung.difference = differenceOf(*linear, **exact, bench.white());
+      rung.difference = differenceOf(*linear, exact, bench.white());
     }));
   }
   return {};  // the futures wait for their threads
@@ -92,32 +91,34 @@ Result<void> timeRungs(Bench& bench, Ladder& ladder, int rounds, Clock& clock) {
   return {};
 }
 
-Result<void> judgeBesideExact(Bench& bench, Ladder& ladder, Clock& clock, double share) {
+Result<void> judgeBesideExact(Bench& bench, Ladder& ladder, Clock& clock, double share, double each) {
   const std::vector<Quality> qualities = besideExact(bench, ladder);
+  const auto goOn = [&] { return !clock.stopped() && clock.left(share) > each; };
+  // Without the exact rung's the others' pictures say nothing.
   const Image* exact = nullptr;
-  Image exactDisplay;
+  if (goOn()) {
+    const auto first = bench.picture(qualities[exactIndex(ladder)]);
+    if (!first) return fail(first.error());
+    exact = *first;
+  }
+  std::vector<const Image*> pictures(qualities.size(), nullptr);
+  if (exact) {
+    auto made = bench.pictures(qualities, goOn);
+    if (!made) return fail(made.error());
+    pictures = std::move(*made);
+  }
+  const Image exactDisplay = exact ? bench.developed(*exact) : Image();
   std::vector<std::future<void>> work;
-  // The exact rung first: without it the others' pictures say nothing.
-  std::vector<std::size_t> order(qualities.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::iter_swap(order.begin(), order.begin() + std::ptrdiff_t(exactIndex(ladder)));
-  double slowest = 0;
-  for (const std::size_t i : order) {
+  for (std::size_t i = 0; i < qualities.size(); ++i) {
     RungCost& rung = ladder.cost.rungs[i];
-    if (clock.left(share) < slowest) {
+    if (!pictures[i]) {
       addNote(rung, "not rendered beside the preset exact: the time was up");
       continue;
     }
-    const double before = clock.seconds();
-    const auto picture = bench.picture(qualities[i]);
-    if (!picture) return fail(picture.error());
-    if (!exact) exact = *picture, exactDisplay = bench.developed(*exact);
     rung.exactRestKnown = true;
-    work.push_back(std::async(std::launch::async, [&, linear = *picture] { rung.exactRest = errorOf({*linear, bench.developed(*linear)}, {*exact, exactDisplay}); }));
-    slowest = std::max(slowest, clock.seconds() - before);
-    if (clock.stopped()) return stopped();
+    work.push_back(std::async(std::launch::async, [&, linear = pictures[i]] { rung.exactRest = errorOf({*linear, bench.developed(*linear)}, {*exact, exactDisplay}); }));
   }
-  return {};
+  return clock.stopped() ? stopped() : Result<void>();
 }
 
 Result<void> timeBesideExact(Bench& bench, Ladder& ladder, Clock& clock) {

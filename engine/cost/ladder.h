@@ -31,8 +31,8 @@ Ladder ladderOf(const Bench& bench, TermToMeasure what);
 Result<void> judge(Bench& bench, Ladder& ladder, const Against& against);
 /// Times of all rungs. Without time it leaves the ladder as it is.
 Result<void> timeRungs(Bench& bench, Ladder& ladder, int rounds, Clock& clock);
-/// Errors with the rest as in the preset `exact`; each rung's picture is one frame. Rungs that the time is too short for get a note.
-Result<void> judgeBesideExact(Bench& bench, Ladder& ladder, Clock& clock, double share);
+/// Errors with the rest as in the preset `exact`. None is begun with less than `each` seconds left of that share of the time; those rungs get a note.
+Result<void> judgeBesideExact(Bench& bench, Ladder& ladder, Clock& clock, double share, double each);
 /// Times with the rest as in the preset `exact`, three rounds.
 Result<void> timeBesideExact(Bench& bench, Ladder& ladder, Clock& clock);
 /// Times in milliseconds once the base's frame is known, and the marks.

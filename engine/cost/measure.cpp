@@ -112,6 +112,7 @@ Result<void> Run::presets() {
     (void)setPreset(preset, name);
     if (std::find(qualities.begin(), qualities.end(), preset) == qualities.end()) qualities.push_back(preset);
   }
+  if (const auto pictures = bench_.pictures(qualities); !pictures) return fail(pictures.error());  // and their programs with them
   const auto goOn = [this] { return !clock_.stopped(); };
   double before = clock_.seconds();
   if (auto warm = bench_.time({&qualities[0], 1}, kLeastRounds, {}, goOn); !warm) return fail(warm.error());
@@ -165,9 +166,12 @@ Result<void> Run::terms() {
 }
 
 Result<void> Run::besideExact() {
+  double each = pictureSeconds_;
   for (std::size_t i = 0; i < ladders_.size(); ++i) {
     if (auto told = tell(0.65 + 0.2 * double(i) / double(ladders_.size()), ladders_[i].cost.name + " beside the preset exact"); !told) return told;
-    if (auto judged = judgeBesideExact(bench_, ladders_[i], clock_, options_.choices ? kBesideExactUntil : 1); !judged) return judged;
+    const double before = clock_.seconds();
+    if (auto judged = judgeBesideExact(bench_, ladders_[i], clock_, options_.choices ? kBesideExactUntil : 1, each); !judged) return judged;
+    each = (clock_.seconds() - before) / double(ladders_[i].qualities.size());
     bench_.forget({&exact_, 1});
   }
   return {};
@@ -235,6 +239,7 @@ Result<CostReport> measureCost(const ProcAddress& getProcAddress, const Scene& s
   if (auto good = check(options); !good) return fail(good.error());
   auto bench = Bench::create(getProcAddress, scene, view, options.size, options.base, report);
   if (!bench) return fail(bench.error());
+  (*bench)->assist(options.secondContext);
   CostReport out;
   out.size = options.size;
   out.machine = (*bench)->capabilities();

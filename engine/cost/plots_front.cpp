@@ -121,7 +121,7 @@ std::string markLabel(const FrontMark& mark, const CostReport& cost) {
   return fmt::format("{}: {} ms, error {}. {}", name, spreadText(p.ms), percent(p.error.rms), settingsText(p, p.quality == cost.base.quality ? "the base quality" : "nothing differs from the base"));
 }
 
-void staircase(Svg& svg, const std::vector<FrontMark>& marks, const Axis& time, const Axis& error) {
+void staircase(Svg& svg, const std::vector<FrontMark>& marks, const Axis& time, const Axis& error, Labels& labels) {
   std::vector<double> line;
   double best = INFINITY;
   for (const FrontMark& m : marks) {
@@ -132,13 +132,17 @@ void staircase(Svg& svg, const std::vector<FrontMark>& marks, const Axis& time, 
     best = m.point->error.rms;
   }
   if (line.size() > 2) svg.polyline(line, "front", false);
+  for (std::size_t i = 0; i + 3 < line.size(); i += 2)
+    labels.keepOff({std::min(line[i], line[i + 2]) - 1, std::min(line[i + 1], line[i + 3]) - 1, std::max(line[i], line[i + 2]) + 1, std::max(line[i + 1], line[i + 3]) + 1});
 }
+
+bool hasSpread(const FrontMark& m) { return m.point->ms.count > 1 && std::isfinite(m.point->ms.low) && std::isfinite(m.point->ms.high); }
 
 void spreads(Svg& svg, const FrontMark& m, const Axis& time, const Axis& error) {
   const FrontPoint& p = *m.point;
   const char* style = m.kind == Kind::Dominated ? "spread dim" : "spread";
   const double x = time.at(p.ms.median), y = error.at(p.error.rms);
-  if (p.ms.count > 1 && std::isfinite(p.ms.low) && std::isfinite(p.ms.high)) svg.line(time.at(p.ms.low), y, time.at(p.ms.high), y, style);
+  if (hasSpread(m)) svg.line(time.at(p.ms.low), y, time.at(p.ms.high), y, style);
   if (p.error.rmsSpread > 0 && std::isfinite(p.error.rmsSpread)) svg.line(x, error.at(p.error.rms - p.error.rmsSpread), x, error.at(p.error.rms + p.error.rmsSpread), style);
 }
 
@@ -160,6 +164,7 @@ Plot frontPlot(const CostReport& cost, const std::vector<BudgetResult>& budgets)
   for (const FrontMark& m : marks) {
     const double x = time.at(m.point->ms.median), y = error.at(m.point->error.rms), r = !m.chosen.empty() ? 9 : m.kind == Kind::Dominated ? 3 : 6;
     labels.keepOff({x - r, y - r, x + r, y + r});
+    if (m.kind != Kind::Dominated && hasSpread(m)) labels.keepOff({time.at(m.point->ms.low), y - 1, time.at(m.point->ms.high), y + 1});
   }
   for (const BudgetResult& b : budgets) {
     if (b.ms > 0 && std::isfinite(b.ms)) {
@@ -173,7 +178,7 @@ Plot frontPlot(const CostReport& cost, const std::vector<BudgetResult>& budgets)
       lines = true;
     }
   }
-  staircase(svg, marks, time, error);
+  staircase(svg, marks, time, error, labels);
   for (const bool plain : {true, false}) {
     for (const FrontMark& m : marks) {
       if ((m.kind == Kind::Dominated) != plain) continue;

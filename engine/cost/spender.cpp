@@ -9,7 +9,7 @@ namespace burnish::cost {
 namespace {
 
 constexpr int kRounds = 3, kVerifyRounds = 11;
-constexpr std::size_t kBatch = 6, kStarts = 4, kVerified = 4, kNeighbours = 24;
+constexpr std::size_t kBatch = 6, kStarts = 4, kVerified = 4, kNeighbours = 24, kTogether = 6;
 constexpr std::array kSlack{0.0, 0.02, 0.0, 0.05, 0.0, 0.1};  ///< how much more than the goal is looked at after so many batches without a better one, for models err; after the last the search ends
 constexpr double kClearly = 2e-3;  ///< an error is lower where it is so by this share, and by the noise of ground truth
 constexpr double kWorthTiming = 1.25;  ///< of the best error so far: what misses more is not timed
@@ -54,6 +54,15 @@ const Sample* Spender::next(const Sample& best) const {
   return found;
 }
 
+/// Those that there is no picture of yet.
+Result<void> Spender::prepare(const std::vector<Choice>& choices) {
+  if (!instrument_.prepare) return {};
+  std::vector<Choice> wanted;
+  for (const Choice& choice : choices)
+    if (const Sample* sample = samples_.find(choice); !sample || !sample->pictured) wanted.push_back(choice);
+  return wanted.empty() ? Result<void>() : instrument_.prepare(wanted);
+}
+
 Result<void> Spender::picture(const Choice& choice) {
   auto picture = instrument_.picture(choice);
   if (!picture) return fail(picture.error());
@@ -64,6 +73,7 @@ Result<void> Spender::picture(const Choice& choice) {
 
 Result<void> Spender::measure(const std::vector<Choice>& choices, const Goal& goal) {
   std::vector<Choice> timed;
+  if (auto done = prepare(choices); !done) return done;
   for (const Choice& choice : choices) {
     const Sample* sample = samples_.find(choice);
     if (!sample || !sample->pictured)
@@ -109,15 +119,19 @@ Result<void> Spender::begin(const CostReport& cost, const std::vector<Goal>& goa
     const bool single = std::find(singles.begin(), singles.end(), s.choice) != singles.end();
     if (!single && s.ratio.median <= mostRatio_) singles.push_back(s.choice);  // presets
   }
+  const auto timed = [&](const Choice& c) {
+    const Sample* known = samples_.find(c);
+    return known && known->ratio.count > 0;
+  };
+  std::erase_if(singles, [&](const Choice& c) { return c != own && timed(c) && samples_.find(c)->ratio.median - allSaves > kHopeless * most; });
   std::vector<Choice> untimed;
   for (std::size_t i = 0; i < singles.size(); ++i) {
-    const Sample* known = samples_.find(singles[i]);
-    const bool timed = known && known->ratio.count > 0;
-    if (i > 0 && timed && known->ratio.median - allSaves > kHopeless * most) continue;
     if (i > 0 && !timeLeft(clock_, until)) break;
     clock_.tell(until * double(i) / double(singles.size()), "single settings");
+    if (i % kTogether == 0)
+      if (auto done = prepare({singles.begin() + std::ptrdiff_t(i), singles.begin() + std::ptrdiff_t(std::min(i + kTogether, singles.size()))}); !done) return done;
     if (auto done = picture(singles[i]); !done) return done;
-    if (!timed) untimed.push_back(singles[i]);
+    if (!timed(singles[i])) untimed.push_back(singles[i]);
     if (auto end = stopped(); !end) return end;
   }
   return measure(untimed, {0, 1e9});

@@ -9,6 +9,8 @@ namespace burnish::cost {
 
 /// What measures.
 struct Instrument {
+  /// Makes these pictures ready at once, and drops others; may be empty.
+  std::function<Result<void>(const std::vector<Choice>&)> prepare;
   std::function<Result<std::pair<Image, PictureError>>(const Choice&)> picture;  ///< F32 RGB, and how far it is from Against
   std::function<Result<std::vector<Spread>>(const std::vector<Choice>&, int rounds)> time;  ///< frames over the base's
 };
@@ -35,6 +37,7 @@ class Spender {
 
  private:
   Result<void> measure(const std::vector<Choice>& choices, const Goal& goal);
+  Result<void> prepare(const std::vector<Choice>& choices);
   Result<void> picture(const Choice& choice);
   Result<bool> batch(const Goal& goal, const Goal& wanted);
   [[nodiscard]] std::vector<Choice> ranked(const Goal& goal, std::size_t most) const;

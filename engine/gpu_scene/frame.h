@@ -4,6 +4,7 @@
 
 #include <array>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "gl/objects.h"
@@ -51,17 +52,22 @@ class TargetPool {
 /// The plan's programs, linked.
 class ProgramSet {
  public:
-  explicit ProgramSet(gl::Device& device, gl::ProgramCache& cache) : device_(device), cache_(cache) {}
+  /// onDemand: each is linked when it is first asked for.
+  explicit ProgramSet(gl::Device& device, gl::ProgramCache& cache, bool onDemand = false) : device_(device), cache_(cache), onDemand_(onDemand) {}
   /// Links what is missing. Errors name program, file and line.
   Result<void> prepare(const FramePlan& plan);
-  /// The plan's program of that name. Asking for one that the plan does not list is a fault of the engine: it returns nullptr.
+  /// The plan's program of that name. Asking for one that the plan does not list is a fault of the engine: it returns nullptr. So does one that cannot be linked on demand: see failed().
   [[nodiscard]] const gl::Program* find(std::string_view name) const;
+  /// What went wrong since prepare().
+  [[nodiscard]] const std::optional<Error>& failed() const { return failed_; }
 
  private:
   gl::Device& device_;
   gl::ProgramCache& cache_;
+  bool onDemand_;
   std::vector<ProgramPlan> plan_;
-  std::map<std::string, const gl::Program*, std::less<>> programs_;
+  mutable std::map<std::string, const gl::Program*, std::less<>> programs_;
+  mutable std::optional<Error> failed_;
 };
 gl::ProgramSource sourceOf(const ProgramPlan& plan);
 

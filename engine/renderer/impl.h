@@ -27,7 +27,7 @@ struct SceneState {
 
 /// What pictures of one kind keep from one to the next. Captures have one of their own: their targets are small, and no picture continues one of theirs.
 struct Series {
-  static Result<std::unique_ptr<Series>> create(gl::Device& device, gl::ProgramCache& programs);
+  static Result<std::unique_ptr<Series>> create(gl::Device& device, gl::ProgramCache& programs, bool linkOnDemand);
   gpu_scene::TargetPool targets;
   gpu_scene::ProgramSet programs;
   Modules modules;
@@ -38,7 +38,7 @@ struct Series {
   float preExposure = 1;         // of the view drawn last
 
  private:
-  Series(gl::Device& device, gl::ProgramCache& cache) : targets(device), programs(device, cache), modules(device), timers(device) {}
+  Series(gl::Device& device, gl::ProgramCache& cache, bool linkOnDemand) : targets(device), programs(device, cache, linkOnDemand), modules(device), timers(device) {}
 };
 
 /// The GL state of one call: the host's is saved (HostState::Save) and the engine starts from defaults; at the end, on every path, the host finds what it was promised.

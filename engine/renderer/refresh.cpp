@@ -11,7 +11,7 @@ namespace burnish {
 
 Result<void> ProbeRefresher::prepare(gl::ProgramCache& programs, int size, int levels, ReflectionLobe wanted) {
   if (!series) {
-    auto made = Series::create(device, programs);
+    auto made = Series::create(device, programs, false);
     if (!made) return fail(made.error());
     series = std::move(*made);
   }

@@ -63,8 +63,8 @@ bool drawsInstances(const FramePlan& plan) { return plan::reads(plan, "meshes");
 Renderer::Impl::Impl() = default;
 Renderer::Impl::~Impl() = default;
 
-Result<std::unique_ptr<Series>> Series::create(gl::Device& device, gl::ProgramCache& programs) {
-  std::unique_ptr<Series> series(new Series(device, programs));
+Result<std::unique_ptr<Series>> Series::create(gl::Device& device, gl::ProgramCache& programs, bool linkOnDemand) {
+  std::unique_ptr<Series> series(new Series(device, programs, linkOnDemand));
   auto buffers = gpu_scene::FrameBuffers::create(device);
   if (!buffers) return fail(buffers.error());
   series->buffers = std::move(*buffers);
@@ -203,7 +203,7 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const ProcAddress& getProcAdd
   m.device = std::move(*device);
   const CallState callState(*m.device, options.hostState);
   m.programs = std::make_unique<gl::ProgramCache>(*m.device, gl::ShaderLibrary(options.shaderOverride), options.programCache);
-  auto pictures = Series::create(*m.device, *m.programs);
+  auto pictures = Series::create(*m.device, *m.programs, options.linkOnDemand);
   if (!pictures) return fail(pictures.error());
   m.pictures = std::move(*pictures);
   return renderer;
@@ -288,7 +288,7 @@ Result<FrameStats> Renderer::Impl::draw(Series& series, const Scene& scene, std:
   if (picture && !done) histories.erase(request.sequence);
   if (options.debugOutput) stats.glErrors = device->takeErrors();
   logNewWarnings();
-  if (!done) return fail(done.error());
+  if (!done) return fail(series.programs.failed().value_or(done.error()));
   for (const gl::PassSample& s : series.timers.latest()) stats.passes.push_back({s.name, s.gpuMs, s.cpuMs});
   stats.lights = int(scene.lights.size());
   stats.uploadedBytes = state.gpu.uploadedBytes();

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Prints docs/accuracy.md from reports of burnish cost: accuracy.py DIR [DIR ...] > docs/accuracy.md, each DIR as `burnish cost SCENE -o DIR` wrote it."""
+"""Prints docs/accuracy.md from reports of burnish cost: accuracy.py DIR[+AGAIN] [...] > docs/accuracy.md, each folder as `burnish cost SCENE -o DIR` wrote it. What the report AGAIN (`--term TERM`) has, terms and the preset
+`exact`, takes the place of what DIR has of it: where a rung changed after DIR was measured."""
 import json
 import math
 import pathlib
@@ -32,6 +33,24 @@ def row(*cells):
 def table(*heads):
     row(*heads)
     row(*["---"] * len(heads))
+
+
+def kind(contributor):
+    """A term, or one of the lines that stand for more."""
+    return contributor["name"].split(":")[0] if ": " in contributor["name"] and not contributor["name"].startswith("what ") else contributor["name"].split(" ")[0]
+
+
+def load(word):
+    first, *later = (json.loads((pathlib.Path(folder) / "cost.json").read_text()) for folder in word.split("+"))
+    first["again"] = []
+    for r in later:
+        terms = {t["term"]: t for t in r["terms"]}
+        first["terms"] = [terms.get(t["term"], t) for t in first["terms"]]
+        first["exact"] = r["exact"]
+        lines = {kind(c): c for c in r["contributors"]}
+        first["contributors"] = sorted((lines.get(kind(c), c) for c in first["contributors"]), key=lambda c: -c["rms"])
+        first["again"].append((r["command"], sorted(terms)))
+    return first
 
 
 def whole(reports):
@@ -74,14 +93,18 @@ def ladders(r):
 def main():
     if len(sys.argv) < 2:
         sys.exit(__doc__)
-    reports = [json.loads((pathlib.Path(folder) / "cost.json").read_text()) for folder in sys.argv[1:]]
+    reports = [load(word) for word in sys.argv[1:]]
     print("# How accurate the default quality is, and what the rest would cost\n")
     print("<!-- Written by tests/bench/accuracy.py: do not edit. -->")
     machine = reports[0]["machine"]
     print(f"Printed by `tests/bench/accuracy.py` from what these commands wrote, on {machine['cpu']}, {machine['renderer']}; times are {reports[0]['clock']}:\n")
     for r in reports:
-        print(f"    {r['command']}")
+        for command in (r["command"], *(command for command, terms in r["again"])):
+            print(f"    {command}")
     print()
+    for r in reports:
+        for _, terms in r["again"]:
+            print(f"{r['scene']}: the second command came after a change of {', '.join(terms)}: that and the preset `exact` are from it. Errors beside `exact` of the other terms are from before.\n")
     for r in reports:
         print(f"{r['scene']}: {r['seconds']:.0f} s of measuring, beside a reference of {r['reference']['samples']} samples a pixel (noise {percent(r['reference']['noise'])}).")
     print()

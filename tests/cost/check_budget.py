@@ -4,7 +4,7 @@
 check_budget.py BURNISH SCENE [-o DIR] [--size WxH] [--shares 50,75,100] [--processes 5] [--frames 15] [-- more options of burnish cost]
 
 Has the qualities of some shares of the default's time found (taken as they are where DIR holds them already), then renders each in fresh processes in turn with the default, and compares: the median of the
-processes' ratios must be within the share plus the spread that the report states for it. Exit 1 where one is not.
+processes' ratios must be within the share plus the spread that the report states for it, also where the tool says that nothing fits with all of its spread. Exit 1 where one is not.
 """
 import argparse
 import json
@@ -65,9 +65,10 @@ def main():
         whole, bases = (x["high"] / x["median"] - 1 for x in (stated, report["base"]["spread"]))
         spread = max(whole**2 - bases**2, 0) ** 0.5 * stated["median"] / base
         median = statistics.median(ratios[share])
-        good = found["met"] and median <= share / 100 + spread
+        good = median <= share / 100 + spread
         failed += not good
-        print(f"{share:>5}% {median:>10.4f} ({min(ratios[share]):.4f} to {max(ratios[share]):.4f}) {stated['median'] / base:>9.4f} ± {spread:.4f} {statistics.median(times[share]):>12.2f}  {'' if good else 'NOT MET '}{', '.join(found['best']['settings'])}")
+        note = ("" if good else "NOT MET ") + ("" if found["met"] else "(said to be the nearest, not to fit) ")
+        print(f"{share:>5}% {median:>10.4f} ({min(ratios[share]):.4f} to {max(ratios[share]):.4f}) {stated['median'] / base:>9.4f} ± {spread:.4f} {statistics.median(times[share]):>12.2f}  {note}{', '.join(found['best']['settings'])}")
     return 1 if failed else 0
 
 

@@ -1,6 +1,7 @@
 // The bench and what is measured with it, on small scenes.
 #include <algorithm>
 #include <cmath>
+#include <thread>
 
 #include "cost/measure_bed.h"
 #include "cost/metrics.h"
@@ -130,7 +131,9 @@ TEST_CASE("measure: a whole report, against a truth that is the preset exact") {
   if (!cost) FAIL(cost.error().message());
   CHECK(told > 3);
   CHECK(cost->against == "ground truth");
-  CHECK(cost->clock == "CPU time");
+  const auto here = queryCapabilities(bed.context->procAddress());
+  REQUIRE(here);
+  CHECK(cost->clock == (here->software ? "CPU time" : "GPU time"));
   REQUIRE(cost->terms.size() == 1);
   const TermCost& fresnel = cost->terms[0];
   CHECK(fresnel.exactRung == "dielectric");
@@ -167,4 +170,62 @@ TEST_CASE("measure: a whole report, against a truth that is the preset exact") {
   CHECK(stopped.error().message().find("stopped") != std::string::npos);
   options.terms = {"frensel"};
   CHECK(!measureCost(bed.context->procAddress(), bed.scene, bed.eye, options, report));
+}
+
+namespace {
+/// Warnings about the second context.
+std::vector<std::string> aboutSecond(const Report& report) {
+  std::vector<std::string> texts;
+  for (const Warning& w : report.warnings())
+    if (w.place == "second context") texts.push_back(w.what);
+  return texts;
+}
+}  // namespace
+
+TEST_CASE("measure: pictures of two contexts are those of one, in the order that was asked for") {
+  const std::vector<Quality> qualities{with("fresnel", "none"), with("diffuse", "oren-nayar"), with("fresnel", "none"), with("distribution", "ggx"), Quality{}, with("ambient", "none"), with("diffuse", "coupled")};
+  Bed one(ball());
+  std::vector<Image> alone;
+  for (const Quality& q : qualities) alone.push_back(one.picture(q));
+
+  Bed two(ball());
+  std::thread::id maker;
+  int opened = 0;
+  two.bench->assist([&] {
+    maker = std::this_thread::get_id();
+    ++opened;
+    return Context::create({.backend = two.context->backend()});
+  });
+  for (int round = 0; round < 2; ++round) {
+    const auto pictures = two.bench->pictures(qualities);
+    REQUIRE(pictures);
+    REQUIRE(pictures->size() == qualities.size());
+    for (std::size_t i = 0; i < qualities.size(); ++i) CHECK((*pictures)[i]->data == alone[i].data);
+    CHECK((*pictures)[0] == (*pictures)[2]);
+    two.bench->forget();
+  }
+  CHECK(opened == 1);
+  CHECK(maker != std::this_thread::get_id());
+  CHECK(aboutSecond(two.report).empty());
+
+  // Not one is begun once there is no time.
+  const auto none = two.bench->pictures(qualities, [] { return false; });
+  REQUIRE(none);
+  CHECK((*none)[0] == nullptr);
+  CHECK((*none)[4] != nullptr);  // the base's is there already
+}
+
+TEST_CASE("measure: without a second context all pictures are made on the first, and that is said") {
+  Bed bed(ball());
+  bed.bench->assist([]() -> Result<std::unique_ptr<Context>> { return fail("EGL", "no more contexts", "close one"); });
+  const std::vector<Quality> qualities{with("fresnel", "none"), with("diffuse", "oren-nayar"), with("diffuse", "coupled")};
+  const auto pictures = bed.bench->pictures(qualities);
+  REQUIRE(pictures);
+  for (std::size_t i = 0; i < qualities.size(); ++i) CHECK((*pictures)[i] == &bed.picture(qualities[i]));
+  CHECK(aboutSecond(bed.report) == std::vector<std::string>{"EGL: no more contexts: close one: all pictures are made on the first"});
+  // A maker that makes nothing is no crash.
+  bed.bench->assist([]() -> Result<std::unique_ptr<Context>> { return std::unique_ptr<Context>(); });
+  bed.bench->forget();
+  CHECK(bed.bench->pictures(qualities));
+  CHECK(aboutSecond(bed.report).size() == 2);
 }

@@ -12,6 +12,8 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <regex>
+#include <sstream>
 
 #include "cost/page_fixture.h"
 #include "cost/plots.h"
@@ -169,4 +171,36 @@ TEST_CASE("Page: points of the front are each there once, by time, with their na
   // What has no time or no error is no point.
   const auto hostile = test::hostileReport();
   for (const auto& m : cost::frontMarks(hostile.cost, hostile.budgets)) CHECK(std::isfinite(m.point->ms.median + m.point->error.rms));
+}
+
+TEST_CASE("Page: no name on the front is struck through, by the spread of a time or by the front itself", "[page]") {
+  test::MadeReport made = test::fullReport();
+  const auto widen = [](FrontPoint& p) { p.ms.low = p.ms.median * 0.5, p.ms.high = p.ms.median * 1.8, p.ms.count = 7; };
+  widen(made.cost.base), widen(made.cost.exact);
+  for (FrontPoint& p : made.cost.front) widen(p);
+  const std::string text = cost::frontPlot(made.cost, made.budgets).drawing.file("front", "");
+  struct Line {
+    double left, right, y, bottom;
+  };
+  std::vector<Line> lines;
+  const std::regex line(R"re(<line x1="([0-9.]+)" y1="([0-9.]+)" x2="([0-9.]+)" y2="([0-9.]+)" class="spread"/>)re");
+  for (std::sregex_iterator m(text.begin(), text.end(), line), end; m != end; ++m)
+    if ((*m)[2] == (*m)[4]) lines.push_back({std::stod((*m)[1]), std::stod((*m)[3]), std::stod((*m)[2]), std::stod((*m)[2])});
+  REQUIRE(lines.size() >= 2);
+  std::smatch front;
+  REQUIRE(std::regex_search(text, front, std::regex(R"re(<polyline points="([^"]+)" class="front"/>)re")));
+  std::istringstream corners(front[1].str());
+  std::vector<double> at;
+  for (double x = 0, y = 0; corners >> x && corners.ignore() && corners >> y;) at.push_back(x), at.push_back(y);
+  REQUIRE(at.size() >= 6);
+  for (std::size_t i = 0; i + 3 < at.size(); i += 2) lines.push_back({std::min(at[i], at[i + 2]), std::max(at[i], at[i + 2]), std::min(at[i + 1], at[i + 3]), std::max(at[i + 1], at[i + 3])});
+  const std::regex name(R"re(<text x="([0-9.]+)" y="([0-9.]+)"( text-anchor="middle")? class="strong">([^<]+)</text>)re");
+  int names = 0;
+  for (std::sregex_iterator m(text.begin(), text.end(), name), end; m != end; ++m, ++names) {
+    const double width = cost::textWidth((*m)[4].str(), 12), x = std::stod((*m)[1]) - ((*m)[3].matched ? width / 2 : 0), y = std::stod((*m)[2]);
+    INFO((*m)[4] << " at " << x << ", " << y);
+    // From the top of its capitals to its base line.
+    for (const Line& l : lines) CHECK((l.bottom < y - 10 || l.y > y || l.right < x || l.left > x + width));
+  }
+  CHECK(names >= 2);
 }

@@ -25,7 +25,7 @@ struct CostArguments {
   std::string output, reference, json;
   int referenceSamples = 0;  ///< 0: as many as kReferenceShare of the time gives
   bool noReference = false, noChoices = false;
-  double minutes = 13;
+  double minutes = 14;
   int rounds = 7;
   std::vector<std::string> terms;
   BudgetArguments budgets;
@@ -116,6 +116,7 @@ Result<Measured> measure(const CostArguments& a, LoadedScene& loaded, const burn
   options.terms = a.terms;
   options.choices = !a.noChoices;
   options.backend = burnish::backendName((*context)->backend());
+  if (a.scene.threads != 1) options.secondContext = [backend = (*context)->backend()] { return burnish::Context::create({.backend = backend}); };
   progress.stage("measuring");
   options.progress = [&](double share, std::string_view what) {
     progress.detail(std::string(what));
@@ -195,7 +196,7 @@ Command addCost(CLI::App& program) {
   CLI::Option* none = app->add_flag("--no-reference", arguments->noReference, "no ground truth: errors are against exact rungs alone");
   given->excludes(samples)->excludes(none);
   samples->excludes(none);
-  app->add_option("--minutes", arguments->minutes, "wall time to spend, ground truth included; 0: no limit (13)")->type_name("M")->check(CLI::Range(0.0, 1e5));
+  app->add_option("--minutes", arguments->minutes, "wall time to spend, ground truth included; 0: no limit (14)")->type_name("M")->check(CLI::Range(0.0, 1e5));
   app->add_option("--rounds", arguments->rounds, "pairs of frames behind each time, at most; fewer when the time runs short, but 5 (7)")->type_name("N")->check(CLI::Range(3, 1000));
   std::vector<std::string> names;
   for (const burnish::Term& term : burnish::terms()) names.emplace_back(term.name);

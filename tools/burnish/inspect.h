@@ -4,6 +4,8 @@
 
 namespace cli {
 
+inline constexpr float kMostHalf = 65504;  ///< the largest half float
+
 void printScene(const burnish::Scene& scene, const burnish::Report& report, const std::string& name);
 void printPicture(const burnish::Image& image, const std::string& name);
 /// `cube` with its values as stored.

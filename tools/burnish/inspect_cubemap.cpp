@@ -13,7 +13,6 @@ namespace {
 using burnish::CubeLevel;
 using burnish::EnvironmentFile;
 
-constexpr float kMostHalf = 65504;
 constexpr double kNarrowLobe = 2.5;   // texels; bilinear sampling of narrower lobes errs by more than 2.5 % of the peak
 constexpr int kSmallFace = 8;
 constexpr double kMeanDrift = 0.02;   // of the mean radiance, which a filter does not change

@@ -14,7 +14,6 @@ namespace {
 using burnish::Image;
 using burnish::PixelType;
 
-constexpr float kMostHalf = 65504;
 
 float valueAt(const Image& image, std::size_t i) {
   switch (image.type) {

@@ -46,6 +46,7 @@ Result<Session> open(const RenderArguments& arguments) {
   session.finish = reinterpret_cast<void (*)()>(address("glFinish"));
   burnish::RendererOptions options;
   options.debugOutput = true;  // GL errors are counted in the report
+  options.linkOnDemand = true;
   auto renderer = burnish::Renderer::create(address, options);
   if (!renderer) return fail(renderer.error());
   session.renderer = std::move(*renderer);

@@ -137,6 +137,9 @@ struct CostOptions {
   std::vector<std::string> terms;      ///< these alone, and choices by their names (costChoices()); empty: all that the scene exercises
   bool choices = true;                 ///< sizes, formats and layouts too
   std::string backend;                 ///< name for the report
+  /// Opens a context of its own and makes it current on the calling thread, a thread of the measurement's, which also closes it. Half of all pictures are made there, beside the others: drivers compile
+  /// programs on one thread. Nothing runs there while times are taken. Empty: all is done on the context that is current.
+  std::function<Result<std::unique_ptr<Context>>()> secondContext;
   std::function<bool(double share, std::string_view what)> progress;  ///< false ends the work with an error
 };
 /// Names of the choices that are no terms, in the order in which they are measured: "normal-storage", "resolution-scale", ... (docs/storage.md).

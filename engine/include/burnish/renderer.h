@@ -16,6 +16,9 @@ struct RendererOptions {
   std::uint64_t uploadBytesPerFrame = 0;     ///< 0: no limit; else meshes and textures arrive over several frames, nearest first
   std::filesystem::path programCache;        ///< folder for program binaries; empty: none
   std::filesystem::path shaderOverride;      ///< folder that is looked into before the embedded shaders; empty: none
+  /// Programs are linked when something is first drawn with them, not all that the plan lists before the frame: for tools that make few pictures of many qualities. A plan lists what the next frames of
+  /// a moving view may need, and a game wants that ahead. With it a shader of the override folder that does not compile ends render() amid the frame.
+  bool linkOnDemand = false;
   TileBounds tileBounds = TileBounds::Automatic;
   std::vector<std::string> removedEffects;   ///< PlanOptions::removed of every frame
   std::vector<std::string> forcedEffects;    ///< PlanOptions::forced of every frame
@@ -40,7 +43,7 @@ class BURNISH_API Renderer {
   [[nodiscard]] const Capabilities& capabilities() const;
   /// Compiles and links what the plan needs ahead of the first frame. Returns the number of programs built (not taken from memory).
   Result<int> warmUp(const FramePlan& plan);
-  /// Draws the views into the target. Never partially: on error nothing was drawn to the target.
+  /// Draws the views into the target. Never partially: on error nothing was drawn to the target (but see RendererOptions::linkOnDemand).
   Result<FrameStats> render(const Scene& scene, std::span<const View> views, const Target& target, const Quality& quality, const RenderRequest& request = {});
   /// The plan that the last render() executed.
   [[nodiscard]] const FramePlan& lastPlan() const;

@@ -1,13 +1,35 @@
-#include "cost/choices_studio.h"
+#include "cost/studio.h"
 
 #include <algorithm>
 #include <cstring>
 
 namespace burnish::cost {
 
+Quality pictureKey(Quality quality, float exposureEv) {
+  const Quality usual;
+  quality.antialiasing = Antialiasing::None;
+  quality.bloom = Bloom::None;
+  quality.bloomShare = usual.bloomShare;
+  quality.toneMap = usual.toneMap;
+  quality.exposureEv = exposureEv;  // the light buffer's range is centred on it
+  return quality;
+}
+
+Result<Image> linearPicture(Renderer& renderer, const OffscreenTarget& target, const Scene& scene, const View& view, const Quality& key) {
+  RenderRequest request;
+  request.output = Output::Linear;
+  request.displayLight = true;  // what the light buffer rounds off is part of what a user sees
+  if (const auto stats = renderer.render(scene, {&view, 1}, target.target(), key, request); !stats) return fail(stats.error());
+  const auto rgba = target.read();
+  if (!rgba) return fail(rgba.error());
+  Image rgb = makeImage(rgba->width, rgba->height, 3, PixelType::F32);
+  for (std::size_t i = 0; i < rgb.pixelCount(); ++i) std::memcpy(rgb.f32() + 3 * i, rgba->f32() + 4 * i, 3 * sizeof(float));
+  return rgb;
+}
+
 Result<std::unique_ptr<Studio>> Studio::create(const ProcAddress& getProcAddress, const Bench& bench) {
   std::unique_ptr<Studio> studio(new Studio(bench));
-  auto renderer = Renderer::create(getProcAddress);
+  auto renderer = Renderer::create(getProcAddress, {.linkOnDemand = true});
   if (!renderer) return fail(renderer.error());
   studio->renderer_ = std::move(*renderer);
   for (const auto& [target, output] : {std::pair(&studio->display_, Output::Display), std::pair(&studio->linear_, Output::Linear)}) {
@@ -19,19 +41,8 @@ Result<std::unique_ptr<Studio>> Studio::create(const ProcAddress& getProcAddress
 }
 
 Result<Image> Studio::picture(const Scene& scene, const Quality& quality) {
-  Quality q = quality;
-  q.antialiasing = Antialiasing::None;
-  q.bloom = Bloom::None;
-  q.exposureEv = bench_.exposureEv();
-  RenderRequest request;
-  request.output = Output::Linear;
-  request.displayLight = true;
-  if (const auto stats = renderer_->render(scene, {&bench_.view(), 1}, linear_->target(), q, request); !stats) return fail(stats.error());
-  auto read = linear_->read();
-  if (!read) return fail(read.error());
-  Image rgb = makeImage(read->width, read->height, 3, PixelType::F32);
-  for (std::size_t i = 0; i < rgb.pixelCount(); ++i) std::memcpy(rgb.f32() + 3 * i, read->f32() + 4 * i, 3 * sizeof(float));
-  bench_.hold(rgb);
+  auto rgb = linearPicture(*renderer_, *linear_, scene, bench_.view(), pictureKey(quality, bench_.exposureEv()));
+  if (rgb) bench_.hold(*rgb);
   return rgb;
 }
 

@@ -1,10 +1,15 @@
-// Pictures and times of other scenes than the bench's, or of its scene's light as a display has it.
+// A renderer of its own beside the bench's: pictures of other scenes than the bench's, of its scene's light as a display has it, or on another context.
 #pragma once
 #include "cost/bench.h"
 
 namespace burnish::cost {
 
-/// A renderer of its own beside the bench's, with the same view, size and exposure. What it uploads for a scene goes with the Studio.
+/// F32 RGB, cd/m², as Bench::picture makes it but for holding. `key`: as pictureKey makes it.
+Result<Image> linearPicture(Renderer& renderer, const OffscreenTarget& target, const Scene& scene, const View& view, const Quality& key);
+/// Everything that shades as `quality` does has this key: what develops a picture is taken out.
+Quality pictureKey(Quality quality, float exposureEv);
+
+/// What it uploads for a scene goes with the Studio.
 class Studio {
  public:
   /// The context must be current and stay so; the bench must outlive the studio.
