@@ -89,10 +89,12 @@ Result<GLuint> TargetPool::levelFramebuffer(std::string_view color, int level) {
 gl::ProgramSource sourceOf(const ProgramPlan& p) { return {p.name, p.vertex, p.fragment, p.compute, p.defines}; }
 
 Result<void> ProgramSet::prepare(const FramePlan& plan) {
+  failed_.reset();
   if (plan.programs == plan_) return {};
   programs_.clear();
   plan_.clear();
   for (const ProgramPlan& p : plan.programs) {
+    if (onDemand_) break;
     auto program = cache_.get(sourceOf(p));
     if (!program) return fail(program.error());
     programs_[p.name] = *program;
@@ -102,8 +104,15 @@ Result<void> ProgramSet::prepare(const FramePlan& plan) {
 }
 
 const gl::Program* ProgramSet::find(std::string_view name) const {
-  const auto found = programs_.find(name);
-  return found == programs_.end() ? nullptr : found->second;
+  if (const auto found = programs_.find(name); found != programs_.end()) return found->second;
+  const auto planned = std::find_if(plan_.begin(), plan_.end(), [&](const ProgramPlan& p) { return p.name == name; });
+  if (!onDemand_ || planned == plan_.end()) return nullptr;
+  auto program = cache_.get(sourceOf(*planned));
+  if (!program) {
+    failed_ = program.error();
+    return nullptr;
+  }
+  return programs_[planned->name] = *program;
 }
 
 Result<FrameBuffers> FrameBuffers::create(gl::Device& device) {
@@ -173,11 +182,19 @@ void fillSun(FrameData& d, const FrameContext& c) {
   d.sun[1].w = finite(sun.horizon, -2);
 }
 
-}  // namespace
+/// Pre-exposed light is held here: its product with any lobe (2e6 at most) is a number, and 0 times it is 0.
+constexpr float kMostLight = 1e18f;
 
-namespace {
-/// What the light buffer holds at most, with room for rounding: half floats end at 65504, the blue of R11F_G11F_B10F at 64512.
-float largestLight(const TargetPlan* light) { return !light || light->format == "RGBA16F" ? 65000.0f : light->format == "RGBA32F" ? 3e38f : 64000.0f; }
+/// How far off its surface a position that is rebuilt from depth may lie: a share of its distance from the eye, and metres. Floats round by some 2^-24 each, and rasterizers move vertices
+/// to a grid of 1/256 of a pixel (GL_SUBPIXEL_BITS of all that are common is 8), a surface with them.
+glm::dvec2 positionSlack(const scene::ViewFrame& v) {
+  const double pixel = std::max(2 * v.tanX / v.viewport.z, 2 * v.tanY / v.viewport.w) / 256;
+  return v.orthographic ? glm::dvec2(1e-5, pixel) : glm::dvec2(1e-5 + pixel, 0);
+}
+
+/// What a pass writes to the light buffer at most: half of what it holds, with room for rounding (half floats end at 65504, the blue of R11F_G11F_B10F at 64512). What emits is added to what
+/// reflects, and a sum past the end is infinite on chips (llvmpipe holds it).
+float largestLight(const TargetPlan* light) { return !light || light->format == "RGBA16F" ? 32500.0f : light->format == "RGBA32F" ? 1.5e38f : 32000.0f; }
 }  // namespace
 
 Result<void> uploadFrameData(FrameContext& c, float displayExposure) {
@@ -187,7 +204,7 @@ Result<void> uploadFrameData(FrameContext& c, float displayExposure) {
   d.exposure = vec4(c.preExposure, 1 / c.preExposure, displayExposure / c.preExposure, largestLight(c.plan.target("light")));
   d.eye = vec4(glm::vec3(c.view.eye), 0);
   const Environment& e = c.scene.environment;
-  const float scale = std::isfinite(e.scale) ? std::max(e.scale, 0.0f) * c.preExposure : 0;
+  const float scale = std::isfinite(e.scale) ? std::min(std::max(e.scale, 0.0f) * c.preExposure, kMostLight) : 0;
   // As the cube's texels are mended (gpu_environment.cpp): a channel that is not finite or negative is black.
   for (int i = 0; i < 3; ++i) d.background[i] = std::isfinite(e.color[i]) ? std::clamp(e.color[i], 0.0f, 1e30f) * scale : 0.0f;
   d.background.w = scale;
@@ -195,7 +212,8 @@ Result<void> uploadFrameData(FrameContext& c, float displayExposure) {
     d.environment.x = c.environment->lastLevel;
     for (std::size_t i = 0; i < 9; ++i) d.irradiance[i] = vec4(c.environment->irradiance[i] * scale, 0);
   }
-  d.probes = vec4(float(c.probes.size()), c.probeLight ? c.probeLight->lastLevel : 0, 0, 0);
+  const glm::dvec2 slack = positionSlack(c.view);
+  d.probes = vec4(float(c.probes.size()), c.probeLight ? c.probeLight->lastLevel : 0, slack.x, slack.y);
   if (c.plan.on("fog")) fillFog(d, c);
   if (c.plan.on("sun_disc") && c.scene.environment.sun) fillSun(d, c);
   d.environment.y = float(c.lights.local.size());
@@ -205,7 +223,7 @@ Result<void> uploadFrameData(FrameContext& c, float displayExposure) {
   d.target = c.view.target;
   for (std::size_t i = 0; i < c.lights.directional.size(); ++i) {
     d.directional[2 * i] = vec4(c.lights.directional[i].toLight, 0);
-    d.directional[2 * i + 1] = vec4(c.lights.directional[i].illuminance * c.preExposure, 0);
+    d.directional[2 * i + 1] = vec4(glm::min(c.lights.directional[i].illuminance * c.preExposure, glm::vec3(kMostLight)), 0);
   }
   if (auto written = c.buffers.frame.write(std::as_bytes(std::span(&d, 1))); !written) return written;
   c.buffers.frame.bindBase(GL_UNIFORM_BUFFER, BINDING_FRAME);

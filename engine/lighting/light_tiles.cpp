@@ -1,7 +1,9 @@
 #include "lighting/light_tiles.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 
 #include "interface/limits.h"
 #include "plan/variants.h"
@@ -11,6 +13,18 @@ namespace {
 
 constexpr std::uint8_t kBrushed = 1, kRough = 2;
 std::uint8_t bitsOf(plan::Details d) { return std::uint8_t((d.brushed ? kBrushed : 0) | (d.rough ? kRough : 0)); }
+plan::Details detailsOf(std::uint8_t bits) { return {(bits & kBrushed) != 0, (bits & kRough) != 0}; }
+
+/// All kinds of lists, each right for what those before it are for.
+constexpr std::array kLists = [] {
+  std::array<int, std::size(plan::kTileBuckets) + 3> lists{};
+  std::copy(std::begin(plan::kTileBuckets), std::end(plan::kTileBuckets), lists.begin());
+  std::copy_n(std::array{plan::kLoop, plan::kLoopSpots, plan::kLoopShadows}.begin(), 3, lists.end() - 3);
+  return lists;
+}();
+int rankOf(int bucket) { return int(std::find(kLists.begin(), kLists.end(), bucket) - kLists.begin()); }
+/// A program that draws less than this part of the tiles is not worth having.
+constexpr std::size_t kFewTiles = 50;
 
 int bucketOf(std::uint32_t count) {
   for (int b : plan::kTileBuckets)
@@ -200,32 +214,59 @@ void TileCuller::keepReached(std::span<const scene::LocalLight> lights, TileSurf
   }
 }
 
-// A counting sort: the tiles of each program in a row.
-void TileCuller::buildLists(std::span<const scene::LocalLight> lights, std::size_t shadowed) {
-  const std::size_t tiles = slices_.size();
-  spots_.assign(tiles, 0);
-  shadowed_.assign(tiles, 0);
-  for (std::size_t i = 0; i < tiles; ++i)
+// The program that suits each tile best; then one for several where a program would draw few tiles: a software renderer compiles each for a third of a second, and every driver binds it in each frame.
+void TileCuller::choosePrograms(std::span<const scene::LocalLight> lights, std::size_t shadowed) {
+  programs_.assign(slices_.size(), {});
+  shadowed_.assign(slices_.size(), 0);
+  std::map<TileProgram, std::size_t> users;
+  std::size_t lit = 0;
+  for (std::size_t i = 0; i < slices_.size(); ++i) {
+    if (slices_[i] == 0) continue;
+    bool spots = false;
     for (std::uint32_t k = 0; k < counts_[i]; ++k) {
       const std::uint16_t light = sorted_[offsets_[i] + k];
-      spots_[i] |= lights[light - 1u].cosOuter > -1;
+      spots = spots || lights[light - 1u].cosOuter > -1;
       shadowed_[i] = std::uint16_t(shadowed_[i] + (light <= shadowed));
     }
+    TileProgram& p = programs_[i];
+    p.places = probes_.empty() ? plan::Places::None : plan::placesOf(probeCounts_[i]);
+    p.detail = detail_[i];
+    p.list = rankOf(shadowed_[i] ? plan::kLoopShadows : spots ? plan::kLoopSpots : p.detail > 0 && counts_[i] > 0 ? plan::kLoop : bucketOf(counts_[i]));
+    ++users[p];
+    ++lit;
+  }
+  // What lists more lights, pads fewer; a loop does for all. Several places do for one and for none. Only what has tiles of its own takes others: it is in the plan.
+  std::map<TileProgram, TileProgram> instead;
+  const auto move = [&](const TileProgram& from, plan::Places places) {
+    for (auto to = users.upper_bound({places, from.detail, places == from.places ? from.list : -1}); to != users.end() && to->first.places == places && to->first.detail == from.detail; ++to) {
+      if (to->first.list < from.list) continue;
+      to->second += users.at(from);
+      instead[from] = to->first;
+      users.erase(from);
+      return true;
+    }
+    return false;
+  };
+  for (const auto& [p, count] : std::map(users))
+    if (users.at(p) * kFewTiles < lit && !move(p, p.places) && p.places != plan::Places::Many) (void)move(p, plan::Places::Many);
+  for (TileProgram& p : programs_)
+    for (auto to = instead.find(p); to != instead.end(); to = instead.find(p)) p = to->second;
+}
+
+// A counting sort: the tiles of each program in a row.
+void TileCuller::buildLists(std::size_t lights) {
   lists_.tiles.clear();
   lists_.groups.clear();
   lists_.entries.clear();
   lists_.probes.clear();
-  std::vector<std::uint8_t> seen(lights.size() + 1);
-  bool some[] = {true, false, false};
-  for (const std::uint16_t count : probeCounts_) some[std::size_t(plan::placesOf(count))] = true;
-  const auto addGroup = [&](int bucket, plan::Places places, plan::Details details) {
-    if (!some[std::size_t(places)]) return;
-    TileGroup g{bucket, int(lists_.tiles.size()), 0, places, details};
-    const std::uint8_t detail = bitsOf(details);
-    for (std::size_t i = 0; i < tiles; ++i) {
-      if (slices_[i] == 0 || detail_[i] != detail || (probes_.empty() ? plan::Places::None : plan::placesOf(probeCounts_[i])) != places) continue;
-      const int own = shadowed_[i] ? plan::kLoopShadows : spots_[i] ? plan::kLoopSpots : detail > 0 && counts_[i] > 0 ? plan::kLoop : bucketOf(counts_[i]);
-      if (own != bucket) continue;
+  std::vector<std::uint8_t> seen(lights + 1);
+  std::map<TileProgram, std::vector<std::uint32_t>> groups;
+  for (std::size_t i = 0; i < slices_.size(); ++i)
+    if (slices_[i] > 0) groups[programs_[i]].push_back(std::uint32_t(i));
+  for (const auto& [program, tiles] : groups) {
+    const int bucket = kLists[std::size_t(program.list)];
+    lists_.groups.push_back({bucket, int(lists_.tiles.size()), int(tiles.size()), program.places, detailsOf(program.detail)});
+    for (const std::uint32_t i : tiles) {
       const std::size_t first = lists_.entries.size();
       for (std::uint32_t k = 0; k < counts_[i]; ++k) {
         const std::uint16_t light = sorted_[offsets_[i] + k];
@@ -236,14 +277,6 @@ void TileCuller::buildLists(std::span<const scene::LocalLight> lights, std::size
       lists_.tiles.emplace_back(int(i) % columns_, int(i) / columns_, int(first), int(lists_.entries.size() - first) + (int(shadowed_[i]) << 16));
       if (!probes_.empty()) lists_.probes.push_back(probes_[i]);
     }
-    g.count = int(lists_.tiles.size()) - g.first;
-    if (g.count > 0) lists_.groups.push_back(g);
-  };
-  for (plan::Places places : plan::kPlaces) {
-    for (int bucket : plan::kTileBuckets) addGroup(bucket, places, {false, false});
-    for (int bucket : {plan::kLoop, plan::kLoopSpots, plan::kLoopShadows}) addGroup(bucket, places, {false, false});
-    for (plan::Details details : plan::kDetailClasses)
-      for (int bucket : plan::kDetailBuckets) addGroup(bucket, places, details);
   }
   lists_.lightsInView = int(std::count(seen.begin(), seen.end(), 1));
   if (lists_.entries.empty()) lists_.entries.push_back(0);
@@ -273,7 +306,8 @@ const TileLists& TileCuller::cull(const scene::ViewFrame& view, std::span<const 
   probeCounts_.clear();
   lists_.crowded = lists_.mostProbes = 0;
   if (probes) findProbes(view, *probes);
-  buildLists(lights, shadowed);
+  choosePrograms(lights, shadowed);
+  buildLists(lights.size());
   listBackground(depths);
   return lists_;
 }

@@ -1,6 +1,7 @@
 // Which lights reach which tiles: lists for tiles of 16 x 16 pixels, bounded by the depth of what is in them. No GL; everything relative to the eye.
 #pragma once
 #include <array>
+#include <compare>
 #include <cstdint>
 #include <functional>
 #include <glm/glm.hpp>
@@ -27,7 +28,8 @@ void reduceDepth(const float* depth, int stride, int width, int height, glm::dve
 
 /// One tile as the vertex shader reads it: x, y, first entry in the lists, number of entries (padding included) + 65536 · those that cast shadows (plan::kLoopShadows alone).
 using TileVertex = glm::ivec4;
-/// Tiles that are shaded by one program: lists of `bucket` lights (plan::kTileBuckets), plan::kLoop, kLoopSpots or kLoopShadows.
+/// Tiles that are shaded by one program: lists of `bucket` lights (plan::kTileBuckets), plan::kLoop, kLoopSpots or kLoopShadows. A program that few tiles call for draws none: another that is drawn
+/// anyway, and is right for them too, takes them.
 struct TileGroup {
   int bucket = 0;
   int first = 0, count = 0;  ///< in tiles
@@ -78,7 +80,8 @@ class TileCuller {
   void markProbe(const scene::ViewFrame& view, const ProbeBox& box, std::int16_t index);
   void sortPairs();
   void keepReached(std::span<const scene::LocalLight> lights, TileSurfaces& surfaces);
-  void buildLists(std::span<const scene::LocalLight> lights, std::size_t shadowed);
+  void choosePrograms(std::span<const scene::LocalLight> lights, std::size_t shadowed);
+  void buildLists(std::size_t lights);
   void listBackground(std::span<const TileDepth> depths);
 
   int columns_ = 0, rows_ = 0;
@@ -100,7 +103,14 @@ class TileCuller {
   std::vector<std::uint16_t> probeCounts_;  // that meet it
   std::vector<Pair> pairs_;
   std::vector<std::uint32_t> counts_, offsets_;
-  std::vector<std::uint8_t> spots_;
+  // What shades a tile, in the order in which programs are drawn.
+  struct TileProgram {
+    plan::Places places = plan::Places::None;
+    std::uint8_t detail = 0;
+    int list = 0;  // index of the kind of list
+    friend auto operator<=>(const TileProgram&, const TileProgram&) = default;
+  };
+  std::vector<TileProgram> programs_;    // of each tile
   std::vector<std::uint16_t> shadowed_;  // lights of each tile that cast shadows
   std::vector<std::uint16_t> sorted_;
   TileLists lists_;

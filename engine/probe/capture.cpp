@@ -20,7 +20,7 @@ class RendererCapture final : public Capture {
   }
 
   Result<void> start() {
-    auto made = Renderer::create(address_, {.hostState = HostState::Declared});
+    auto made = Renderer::create(address_, {.hostState = HostState::Declared, .linkOnDemand = true});
     if (!made) return fail(made.error());
     renderer_ = std::move(*made);
     return {};

@@ -2,10 +2,12 @@
 #pragma once
 #include <cmath>
 #include <glm/glm.hpp>
+#include <limits>
 
 #include "shading/bridge.h"
 
 // NOLINTBEGIN
+#define NO_LIMIT std::numeric_limits<real>::max()  // bridge.h has GLSL's
 namespace burnish::shading {
 #include "shading/rungs.h"  // the numbers and Rungs, once for all precisions
 }

@@ -2,14 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace burnish::stability {
 
 using glm::dvec3;
 using glm::vec3;
 
+namespace {
+constexpr double kPi = std::numbers::pi;
+}
+
 Mesh sphere(std::uint32_t rings, std::uint32_t columns) {
-  constexpr double kPi = 3.14159265358979323846;
   Mesh m;
   for (std::uint32_t r = 0; r <= rings; ++r)
     for (std::uint32_t c = 0; c <= columns; ++c) {
@@ -23,6 +27,22 @@ Mesh sphere(std::uint32_t rings, std::uint32_t columns) {
     for (std::uint32_t c = 0; c < columns; ++c) {
       const std::uint32_t a = r * (columns + 1) + c, b = a + columns + 1;
       m.indices.insert(m.indices.end(), {a, a + 1, b + 1, a, b + 1, b});
+    }
+  return m;
+}
+
+Mesh halfBall(std::uint32_t rings, std::uint32_t columns) {
+  Mesh m;
+  for (std::uint32_t r = 0; r <= rings + 2; ++r)
+    for (std::uint32_t c = 0; c <= columns; ++c) {
+      const double t = kPi / 2 * r / rings, p = 2 * kPi * c / columns;
+      m.positions.emplace_back(vec3(dvec3(std::sin(t) * std::cos(p), std::sin(t) * std::sin(p), std::cos(t))));
+    }
+  m.normals = m.positions;
+  for (std::uint32_t r = 0; r < rings + 2; ++r)
+    for (std::uint32_t c = 0; c < columns; ++c) {
+      const std::uint32_t a = r * (columns + 1) + c, b = a + columns + 1;
+      m.indices.insert(m.indices.end(), {a, b, b + 1, a, b + 1, a + 1});
     }
   return m;
 }

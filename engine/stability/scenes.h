@@ -6,6 +6,8 @@ namespace burnish::stability {
 
 /// A unit sphere around the origin, finely tessellated.
 Mesh sphere(std::uint32_t rings, std::uint32_t columns);
+/// The half of it that faces +z, and two rings more.
+Mesh halfBall(std::uint32_t rings, std::uint32_t columns);
 /// A rectangle around `center` spanned by the half-vectors u and v; faces u × v.
 Mesh quad(glm::vec3 center, glm::vec3 u, glm::vec3 v);
 /// A 2x2 map B: flat normals, roughness 1.

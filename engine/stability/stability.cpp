@@ -139,6 +139,7 @@ std::vector<StabilityCase> stabilityOnGpu(const ProcAddress& getProcAddress, std
   auto device = gl::Device::create(getProcAddress, false);
   RendererOptions rendering;
   rendering.debugOutput = true;
+  rendering.linkOnDemand = true;
   rendering.shaderOverride = options.shaderOverride;
   auto renderer = Renderer::create(getProcAddress, rendering);
   if (!device || !renderer) {

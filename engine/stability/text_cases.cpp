@@ -8,21 +8,10 @@
 #include "prefilter/dfg.h"
 #include "reference/energy.h"
 #include "reference/quadrature.h"
-#include "stability/text_variants.h"
+#include "stability/text_words.h"
 
 namespace burnish::stability {
 namespace {
-
-namespace f32 = shading::f32;
-namespace f64 = shading::f64;
-using glm::dvec3;
-using glm::dvec4;
-using glm::vec3;
-using glm::vec4;
-using Inputs = std::span<const ShaderCase>;
-using Outputs = std::span<const dvec4>;
-
-bool finite(const dvec4& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w); }
 
 // A normal that no axis favours, with its frame.
 struct Frame {

@@ -9,26 +9,14 @@
 
 #include "plan/rungs.h"
 #include "stability/case_text.h"
-#include "stability/text_variants.h"
+#include "stability/text_words.h"
 
 namespace burnish::stability {
 namespace {
 
-namespace f32 = shading::f32;
-namespace f64 = shading::f64;
-using glm::dvec3;
-using glm::dvec4;
-using glm::vec3;
-using glm::vec4;
-using Inputs = std::span<const ShaderCase>;
-using Outputs = std::span<const dvec4>;
 using Complex = std::complex<double>;
 
 constexpr double kPi = std::numbers::pi;
-
-vec3 of(const vec4& v) { return vec3(v); }
-dvec3 exactly(const vec4& v) { return dvec3(v); }
-bool finite(const dvec4& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w); }
 
 // Fresnel's equations for unpolarized light from air onto an index eta - i k.
 double reflectance(Complex index, double cosine) {

@@ -9,24 +9,13 @@
 
 #include "prefilter/cube.h"
 #include "stability/case_text.h"
-#include "stability/text_variants.h"
+#include "stability/text_words.h"
 
 namespace burnish::stability {
 namespace {
 
-namespace f32 = shading::f32;
-namespace f64 = shading::f64;
-using glm::dvec3;
-using glm::dvec4;
-using glm::vec3;
-using glm::vec4;
-using Inputs = std::span<const ShaderCase>;
-using Outputs = std::span<const dvec4>;
 using Random = std::mt19937;
 
-vec3 of(const vec4& v) { return vec3(v); }
-dvec3 exactly(const vec4& v) { return dvec3(v); }
-bool finite(const dvec4& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w); }
 double largest(const vec4& v) { return double(std::max({v.x, v.y, v.z})); }
 
 double uniform(Random& random, double low, double high) { return low + (high - low) * (double(random()) + 0.5) * 0x1p-32; }

@@ -21,23 +21,6 @@ using glm::vec3;
 constexpr double kPi = std::numbers::pi;
 constexpr std::uint32_t kRings = 96, kColumns = 160;
 
-/// The half of a ball of radius 1 that faces +z, and a little more.
-Mesh halfBall() {
-  Mesh m;
-  for (std::uint32_t r = 0; r <= kRings + 2; ++r)
-    for (std::uint32_t c = 0; c <= kColumns; ++c) {
-      const double t = kPi / 2 * r / kRings, p = 2 * kPi * c / kColumns;
-      m.positions.emplace_back(vec3(dvec3(std::sin(t) * std::cos(p), std::sin(t) * std::sin(p), std::cos(t))));
-    }
-  m.normals = m.positions;
-  for (std::uint32_t r = 0; r < kRings + 2; ++r)
-    for (std::uint32_t c = 0; c < kColumns; ++c) {
-      const std::uint32_t a = r * (kColumns + 1) + c, b = a + kColumns + 1;
-      m.indices.insert(m.indices.end(), {a, b, b + 1, a, b + 1, a + 1});
-    }
-  return m;
-}
-
 /// What a unit of light from everywhere shows at n·v, by the rungs in force: lobes and diffuse light by quadrature; where the surroundings' rung is no integral of the lobe, Schlick's formula.
 double albedoAt(const FurnacePaint& paint, double roughness, double nov, const Quality& q, const shading::Rungs& rungs, const reference::LobeEnergy* energy) {
   reference::OracleSurface s;
@@ -73,7 +56,7 @@ class AlbedoTable {
 Result<FurnaceFound> whiteFurnace(const DrawLinear& draw, const FurnaceRow& row, const Quality& quality, const std::function<void(Scene&)>& light) {
   const int columns = int(row.paints.size()), rows = int(row.roughness.size());
   Scene scene;
-  const Id<Mesh> ball = scene.meshes.add(halfBall());
+  const Id<Mesh> ball = scene.meshes.add(halfBall(kRings, kColumns));
   for (int r = 0; r < rows; ++r)
     for (int c = 0; c < columns; ++c) {
       Material m;

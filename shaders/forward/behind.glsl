@@ -25,17 +25,11 @@ float distanceOf(float z) {
 // f pixels stands for f²/4 of it, less what makes up to 1.2 pixels one (0.375).
 float levelOf(float blur, float footprint) { return 0.5 * log2(1.0 + max(blur * blur + 0.25 * footprint * footprint - 0.375, 0.0) * 2.4); }  // model: a sharp lookup is one pixel
 
-// What is not a number is black, what is infinite the most that the buffer holds.
-vec3 firm(vec3 c) {
-  c = mix(vec3(0.0), c, equal(c, c));
-  return min(c, vec3(frame.exposure.w));  // model: the buffer's end
-}
-
 vec3 pictureAt(vec2 local, float level) {
   vec2 size = vec2(textureSize(sceneColor, 0));
   float inset = 0.5 * exp2(ceil(level));
   vec2 held = clamp(local, vec2(inset), max(vec2(frame.viewport.zw) - inset, vec2(inset)));  // model: the picture ends here
-  return firm(textureLod(sceneColor, held / size, level).rgb);
+  return firmRadiance(textureLod(sceneColor, held / size, level).rgb, frame.exposure.w);
 }
 
 // The body is as round as its surface here, for its thickness: 1 for a ball. Signed, so that a hollow is no ball.

@@ -27,7 +27,7 @@ int probesNear(vec3 p, out ivec4 list) {
   list = ivec4(0);
   int count = 0;
   bool inside = false;
-  float slack = BURNISH_PROBE_SLACK * sqrt(dot(p, p));
+  float slack = frame.probes.z * sqrt(dot(p, p)) + frame.probes.w;
   for (int i = 0; i < int(frame.probes.x); ++i) {
     vec4 extent = texelFetch(probeRecords, i * PROBE_TEXELS + 3);
     float away = probeDistance(inBox(i * PROBE_TEXELS, p), extent.xyz + slack);

@@ -72,7 +72,7 @@ struct FrameData {
   vec4 rayY;             // added per pixel upward
   vec4 forward;          // xyz unit; orthographic positions are origin + forward * w
   vec4 depthParams;      // perspective: w = x / (z + y); orthographic: w = x - z * y
-  vec4 exposure;         // x pre-exposure (what the light buffer holds is radiance times this), y its inverse, z fixed display exposure, w light buffer's limit
+  vec4 exposure;         // x pre-exposure (what the light buffer holds is radiance times this), y its inverse, z fixed display exposure, w what a pass writes to the light buffer at most
   vec4 eye;              // xyz world position of the eye (m), for debug views only
   vec4 environment;      // x last level of the prefiltered cube; y number of point and spot lights (forward path); z radius of screen-space occlusion (m), w its bound on the screen (pixels)
   vec4 background;       // rgb pre-exposed background colour; w scale of the environment cube
@@ -82,7 +82,7 @@ struct FrameData {
   vec4 fog;              // x extinction (1/m) at the reference height, y its falloff (1/m), z height of the eye above that (m), w metres that are clear
   vec4 fogLight[5];      // pre-exposed radiance that fog shows: constant, along y, z, x; rgb albedo, w mean cosine of its scattering
   vec4 sun[2];           // xyz unit direction to the sun's disc, w its radius (radians); pre-exposed rgb radiance, w sine of the elevation under which it is hidden
-  vec4 probes;           // x reflection probes in view; y last level of their cubes
+  vec4 probes;           // x reflection probes in view; y last level of their cubes; their boxes reach z of a point's distance from the eye, and w (m), farther: what its position may be off
   vec4 directional[2 * MAX_DIRECTIONAL];  // xyz unit direction to the light; rgb pre-exposed lux
 };
 

@@ -15,6 +15,8 @@ layout(binding = UNIT_SHADOW) uniform sampler2DArrayShadow shadowMaps;
 #if SHADOW == 3
 layout(binding = UNIT_SHADOW_DEPTH) uniform sampler2DArray shadowDepths;
 #define SEARCH_TAPS 16  // of four texels each
+#define NEAR_TAPS 8     // and so many more around the middle
+#define NEAR_TEXELS 6.0
 #define FILTER_TAPS 32
 
 // A point in a map.
@@ -28,8 +30,10 @@ struct ShadowPlace {
 
 float visibleIn(ShadowPlace s) {
   float inverse = shadows.params.y, sum = 0.0, count = 0.0;
-  for (int i = 0; i < SEARCH_TAPS; ++i) {
-    vec2 o = vogelDisc(i, SEARCH_TAPS) * s.widest;
+  for (int i = -NEAR_TAPS; i < SEARCH_TAPS; ++i) {
+    vec2 o = vogelDisc(max(i, 0), SEARCH_TAPS) * s.widest;
+    // A blocker near the receiver reaches over a texel or two of the sixteen that a far one would, and must be met there: as many taps in each step of the radius.
+    if (i < 0) o = vogelDisc(i + NEAR_TAPS, NEAR_TAPS) * (sqrt((float(i + NEAR_TAPS) + 0.5) / float(NEAR_TAPS)) * min(s.widest, NEAR_TEXELS));
     // The four texels around a corner.
     vec2 corner = floor(s.at.xy * shadows.params.x + o + 0.5), off = corner - s.at.xy * shadows.params.x;
     vec4 d = textureGather(shadowDepths, vec3(corner * inverse, s.at.z), 0);

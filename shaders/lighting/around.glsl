@@ -3,6 +3,7 @@
 // have a share at p (MAX_TILE_PROBES at most), and which, smaller boxes before larger ones. A software renderer saves the turns that a loop does not take, but
 // nothing of an if.
 // Definitions: ENVIRONMENT (1: the sky gives light), PROBES (1: one captured place may, 2: several), GRID (1: an ambient lattice does), RUNG_AMBIENT, RUNG_ENVIRONMENT_SPECULAR, RUNG_REFLECTION, ENVIRONMENT_UNIT.
+#include "interface/cube_level.glsl"
 #if ENVIRONMENT || PROBES || GRID
 #define SURROUNDINGS 1
 #else
@@ -51,8 +52,8 @@ Place placeAt(vec3 p) {
 #if PROBES
   at.count = probesNear(p, at.probe);
   at.blend = beginBlend();
-  // A box is larger by what p may be rounded by.
-  float slack = BURNISH_PROBE_SLACK * sqrt(dot(p, p));
+  // A box is larger by what p may be off.
+  float slack = frame.probes.z * sqrt(dot(p, p)) + frame.probes.w;
   for (int i = 0; i < PLACES(at); ++i) {
     int record = at.probe[i] * PROBE_TEXELS;
     vec4 extent = texelFetch(probeRecords, record + 3);
@@ -134,7 +135,7 @@ vec3 probeRadiance(int record, vec3 p, vec3 d, float roughness) {
   roughness = probeRoughness(roughness, q, hit, capture.xyz);
 #endif
 #endif
-  return textureLod(probeCubes, vec4(direction, layer), environmentLevel(roughness, frame.probes.y)).rgb * capture.w;
+  return textureLod(probeCubes, vec4(direction, layer), cubeLevel(roughness, frame.probes.y)).rgb * capture.w;
 }
 #endif
 
@@ -143,11 +144,11 @@ vec3 radianceAt(Place at, vec3 d, float roughness) {
   vec3 sum = vec3(0.0);
 #if PROBES
 #if ENVIRONMENT
-  if (at.blend.sky > 0.0) sum = textureLod(environmentCube, d, environmentLevel(roughness, lastLevel())).rgb * (frame.background.w * at.blend.sky);
+  if (at.blend.sky > 0.0) sum = textureLod(environmentCube, d, cubeLevel(roughness, lastLevel())).rgb * (frame.background.w * at.blend.sky);
 #endif
   for (int i = 0; i < PLACES(at); ++i) sum += probeRadiance(at.probe[i] * PROBE_TEXELS, at.p, d, roughness) * at.blend.weight[i];
 #elif ENVIRONMENT
-  sum = textureLod(environmentCube, d, environmentLevel(roughness, lastLevel())).rgb * frame.background.w;
+  sum = textureLod(environmentCube, d, cubeLevel(roughness, lastLevel())).rgb * frame.background.w;
 #endif
   return sum;
 }

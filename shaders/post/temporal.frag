@@ -24,7 +24,6 @@ layout(location = 5) uniform vec4 kept;        // x 1 when there is a frame befo
 layout(location = 0) out vec4 outPicture;
 layout(location = 1) out float outInverse;
 
-#define CLIP_WIDTH 1.25       // standard deviations
 #if WEIGHTED
 #define LARGEST 65000.0  // of a half float, with room for rounding
 #define MOST_STILL 64.0  // more samples change the mean by less than half floats hold: it would drift. From then on the picture is what it is
@@ -150,7 +149,7 @@ void main() {
   if (samples > 0.0) {
     vec3 middle = sum / max(count, 1.0), spread = sqrt(max(squares / max(count, 1.0) - middle * middle, vec3(0.0)));
     // Variance clipping (Salvi 2016, "An Excursion in Temporal Supersampling").
-    old = count > 0.0 ? rgbFromLuma(clippedToward(middle, spread * CLIP_WIDTH, lumaFromRgb(oldBetween(place)))) : oldBetween(place);
+    old = count > 0.0 ? rgbFromLuma(clippedToward(middle, clipBox(middle, spread), lumaFromRgb(oldBetween(place)))) : oldBetween(place);
   }
 #endif
   // A sample that is no number leaves the mean as it was.

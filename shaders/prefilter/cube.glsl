@@ -19,5 +19,9 @@ vec3 inFace(vec3 d, int face) { return vec3(dot(d, kRight[face]), dot(d, kDown[f
 float gridCoordinate(int i, ivec3 grid) { return (2.0 * float(i - grid.y) + 1.0) / float(grid.x) - 1.0; }
 
 #define LARGEST 65024.0  // of what half floats hold, with room for rounding
-// Rounded to half floats here: drivers may cut off what is over.
-vec3 rounded(vec3 c) { return vec3(unpackHalf2x16(packHalf2x16(c.xy)), unpackHalf2x16(packHalf2x16(c.zz)).x); }
+// The nearest half floats, ties to even; under 2^-14 they are multiples of 2^-24. What is drawn and packHalf2x16 may cut off what is over (NVIDIA does).
+float rounded(float c) {
+  uint bits = floatBitsToUint(c);
+  return abs(c) < 1.0 / 16384.0 ? roundEven(c * 16777216.0) / 16777216.0 : uintBitsToFloat((bits + 0xfffu + ((bits >> 13) & 1u)) & 0xffffe000u);
+}
+vec3 rounded(vec3 c) { return vec3(rounded(c.r), rounded(c.g), rounded(c.b)); }

@@ -5,7 +5,8 @@ layout(binding = UNIT_CUBE_FILTER) uniform samplerCube source;
 layout(location = 0) uniform int size;  // texels along the source's edge
 layout(location = 0) out vec4 outPoint;
 
-vec3 kept(vec3 c) { return mix(clamp(c, vec3(0.0), vec3(LARGEST)), vec3(0.0), isnan(c)); }
+float kept(float c) { return isnan(c) ? 0.0 : clamp(c, 0.0, LARGEST); }
+vec3 kept(vec3 c) { return vec3(kept(c.r), kept(c.g), kept(c.b)); }
 
 // ∫ (1 + u² + v²)^(-3/2) over the texel by its value and Laplacian in the middle: within 2e-5 for 16² texels a face, as the fourth power of their size beyond. Differences of corners' arctangents
 // (Driscoll 2012), which are exact, would cancel in float.

@@ -16,6 +16,7 @@
 #define R(x) (x)
 #define OUT(T) out T
 #define INOUT(T) inout T
+#define NO_LIMIT 3.4028234e38
 // For u > 0: 2^-e with u 2^-e in [sqrt(1/2), sqrt(2)), and e. The constants are the bits of 1 and of sqrt(1/2).
 float scaleToOne(float u, out float e) {
   int k = (floatBitsToInt(u) - 0x3f3504f3) >> 23;

@@ -9,7 +9,7 @@ FN real lobeAlbedo(real f0, vec2 dfg, int fresnel) { return fresnel == FRESNEL_N
 FN real scatteredShare(real f0, vec2 mean, int fresnel) {
   real e = unitClamp(mean.x + mean.y);
   real f = fresnelMean(f0, fresnel);
-  return f * f * e / max((R(1.0) - f) + f * e, BURNISH_GUARD_LOSS);
+  return f * f * e / max(notNegative(R(1.0) - f) + f * e, BURNISH_GUARD_LOSS);
 }
 
 // What the lobe loses at one direction with F = 1.

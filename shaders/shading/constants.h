@@ -6,9 +6,6 @@
 // Mean square error of the 24-bit octahedral normal, rad² (shading/normals.h; 2 million random unit vectors).
 #define BURNISH_NORMAL_VARIANCE R(1.61e-7)
 
-// Positions that are rebuilt from depth lie within this share of their distance from the eye: probes' boxes reach so much farther (shading/probes.h).
-#define BURNISH_PROBE_SLACK R(1e-5)
-
 // Perceptual roughness where it enters the G-buffer; its square is the next guard.
 #define BURNISH_ROUGHNESS_MIN R(0.02)
 
@@ -52,10 +49,10 @@
 #define BURNISH_GUARD_RANDOM GUARDED(13, R(2.9802322e-8), R(0.0))
 
 // Radiance is held at what half floats hold where a tone curve would overflow.
-#define BURNISH_GUARD_RADIANCE GUARDED(14, R(65504.0), R(1e300))
+#define BURNISH_GUARD_RADIANCE GUARDED(14, R(65504.0), NO_LIMIT)
 
 // Arguments of AgX's logarithm, which is undefined at 0 and below; 1e-10 lies below its black point of 2^-12.47.
-#define BURNISH_GUARD_AGX GUARDED(15, R(1e-10), R(-1e300))
+#define BURNISH_GUARD_AGX GUARDED(15, R(1e-10), -NO_LIMIT)
 
 // Cosines, codes and reflectances of unit range: dot products of unit vectors leave [0, 1] by rounding, maps by filtering, a host's numbers by anything.
 FN real unitClamp(real x) { return GUARDED(16, clamp(x, R(0.0), R(1.0)), x); }

@@ -24,8 +24,11 @@ FN real D_ggx(real sin2, real alpha) {
 
 // Void geometry takes f = F N(p) (n·h)^p. N is exact when the directional albedo at normal incidence is 1:
 // (p + 2)(p + 4) / (8 pi (2^(-p/2) + p)). Giesen 2009, "Phong and Blinn-Phong normalization factors".
-// As p + 4 over p + 2^(-p/2), so that no product overflows.
-FN real normalizationExact(real p) { return (p + R(2.0)) / (R(8.0) * BURNISH_PI) * ((p + R(4.0)) / (exp2(R(-0.5) * p) + p)); }
+// (p + 4)/(e + p) as 1 + (4 - e)/(e + p): no product overflows, and a reciprocal that some chips take for 0 (of more than 2^126) does no harm.
+FN real normalizationExact(real p) {
+  real e = exp2(R(-0.5) * p);
+  return (p + R(2.0)) / (R(8.0) * BURNISH_PI) * (R(1.0) + (R(4.0) - e) / (e + p));
+}
 
 // The rungs of N(p): none; the linear fits 0.0397436 p + 0.0856832 and 0.0397436 p + 0.3183 (Gotanda 2010, "Practical Implementation at tri-Ace", after Giesen);
 // (p + 2)/8 pi: V = 1/4 under D; (p + 8)/8 pi (Akenine-Möller, Haines and Hoffman 2008, "Real-Time Rendering", 3rd ed., eq. 7.49); exact.

@@ -24,6 +24,13 @@ FN vec3 expandLight(vec3 t) {
 FN vec3 lumaFromRgb(vec3 c) { return vec3(R(0.25) * (c.x + c.z) + R(0.5) * c.y, R(0.5) * (c.x - c.z), R(0.5) * c.y - R(0.25) * (c.x + c.z)); }
 FN vec3 rgbFromLuma(vec3 y) { return vec3(y.x + y.y - y.z, y.x + y.z, y.x - y.y - y.z); }
 
+// Half the size of the box that light before is clipped to: 1.25 standard deviations of the neighbours (`spread`, in luma and differences of colour) around their mean. Never under a step of
+// half floats there: where nothing has colour the box has no width, and what rounding makes of a grey would throw all of the past away.
+FN vec3 clipBox(vec3 middle, vec3 spread) {
+  real least = abs(middle.x) * (R(1.0) / R(512.0));
+  return spread * R(1.25) + vec3(least);
+}
+
 // `old` moved toward `middle` until it is inside the box of half size `extent` around it (Karis 2014: clipped, not clamped, so that hue holds). Any finite numbers under 1e18.
 FN vec3 clippedToward(vec3 middle, vec3 extent, vec3 old) {
   vec3 d = old - middle;

@@ -3,7 +3,7 @@
 #define BURNISH_F0_WATER R(0.0196)
 
 // Metalness of a code: 0 up to s = 0.4, 1 at s = 1.
-FN real substanceMetalness(real s) { return max(s - R(0.4), R(0.0)) * (R(1.0) / R(0.6)); }  // model: the code has two branches
+FN real substanceMetalness(real s) { return clamp((s - R(0.4)) * (R(1.0) / R(0.6)), R(0.0), R(1.0)); }  // model: the code has two branches
 
 FN real substanceDielectricF0(real s) {
   real root = R(0.5) - R(0.9) * min(s, R(0.4));  // model: the code has two branches

@@ -199,6 +199,12 @@ TEST_CASE("hidden: this driver is too old", "[.old]") {
   if (testBackend() == Backend::Egl) CHECK_THAT(made.error().message(), Contains("EGL 1."));
 }
 TEST_CASE("a driver with OpenGL 4.3 is refused, with what was found") {
+  const auto here = queryCapabilities(openContext()->procAddress());
+  REQUIRE(here);
+  if (here->version.find("Mesa") == std::string::npos) {
+    WARN("only Mesa can be told to be older than it is: " << here->version);
+    return;
+  }
   const Outcome outcome = runSelf("env MESA_GL_VERSION_OVERRIDE=4.3 MESA_GLSL_VERSION_OVERRIDE=430", "[.old]");
   INFO(outcome.output);
   CHECK(outcome.status == 0);
@@ -248,7 +254,8 @@ TEST_CASE("hidden: windows", "[.glfw]") {
 }
 TEST_CASE("windows through GLX and through EGL, under Xvfb") {
   if (std::system("command -v xvfb-run > /dev/null 2>&1") != 0) FAIL("xvfb-run is missing: apt-get install xvfb xauth");
-  const Outcome outcome = runSelf("env ASAN_OPTIONS=detect_leaks=0 xvfb-run -a -s '-screen 0 640x480x24'", "[.glfw]");
+  // The server stays as it is between two windows: while it resets itself after its last client, it takes no other.
+  const Outcome outcome = runSelf("env ASAN_OPTIONS=detect_leaks=0 xvfb-run -a -s '-screen 0 640x480x24 -noreset'", "[.glfw]");
   INFO(outcome.output);
   CHECK(outcome.status == 0);
 }

@@ -174,6 +174,7 @@ void addSurroundings(std::vector<Row>& rows) {
   rows.push_back({"compressLight, lumaOf", {}, &kRadiances, TEXT(vec4(compressLight(vec3(a)), R(0.0))), {}, 0, absolute(), 2e-5, within(0, 2 / 0.0722)});
   rows.push_back({"expandLight", {}, &kMaps, TEXT(vec4(expandLight(vec3(a) * R(1.5)), R(0.0))), {}, 0, absolute(), 5e-6, within(0, 2.01)});
   rows.push_back({"clippedToward", {}, &kBoxes, TEXT(vec4(clippedToward(vec3(a.x, a.y, a.z), vec3(a.w, b.x, b.y), vec3(b.z, b.w, c.x)), R(0.0))), {}, 0, absolute(), 1e-6, within(-1e-6, 1 + 1e-6)});
+  rows.push_back({"clipBox", {}, &kBoxes, TEXT(vec4(clipBox(vec3(a.x, a.y, a.z), vec3(a.w, b.x, b.y)), R(0.0))), {}, 0, absolute(), 1e-6, within(0, 1.26)});
   rows.push_back({"catmullRom", {}, &kMaps, TEXT(catmullRom(a.x)), {}, 0, absolute(), 5e-7, within(-0.0742, 1 + 1e-6)});
   rows.push_back({"srgbFromLinear, srgbFromLinearFast, linearFromSrgb", {}, &kMaps, TEXT(vec4(srgbFromLinear(a.x), srgbFromLinearFast(a.y), linearFromSrgb(a.z), R(0.0))), {}, 0, absolute(), 2e-6, within(0, 1 + 0.1 / 255)});
 }

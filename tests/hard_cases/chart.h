@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "render/scenes.h"
+#include "stability/scenes.h"
 
 namespace burnish::test {
 
@@ -23,24 +24,6 @@ inline Quality forwardOf(Geometry geometry) {
   return q;
 }
 
-/// The half of a unit ball that faces the eye, and a little more.
-inline Mesh halfBall() {
-  constexpr std::uint32_t kRings = 160, kColumns = 256;
-  Mesh m;
-  for (std::uint32_t r = 0; r <= kRings + 2; ++r)
-    for (std::uint32_t c = 0; c <= kColumns; ++c) {
-      const double t = kPi / 2 * r / kRings, p = 2 * kPi * c / kColumns;
-      m.positions.emplace_back(vec3(dvec3(std::sin(t) * std::cos(p), std::sin(t) * std::sin(p), std::cos(t))));
-    }
-  m.normals = m.positions;
-  for (std::uint32_t r = 0; r < kRings + 2; ++r)
-    for (std::uint32_t c = 0; c < kColumns; ++c) {
-      const std::uint32_t a = r * (kColumns + 1) + c, b = a + kColumns + 1;
-      m.indices.insert(m.indices.end(), {a, b, b + 1, a, b + 1, a + 1});
-    }
-  return m;
-}
-
 /// A row of balls side by side, a unit apart from edge to edge, each `cell` pixels wide; looked at along -z without perspective.
 struct Chart {
   Scene scene;
@@ -48,8 +31,8 @@ struct Chart {
   glm::ivec2 size;
   int cell;
 
-  Chart(const std::vector<Material>& materials, int cell) : cell(cell) {
-    const Id<Mesh> ball = scene.meshes.add(halfBall());
+  Chart(const std::vector<Material>& materials, int pixels) : cell(pixels) {
+    const Id<Mesh> ball = scene.meshes.add(stability::halfBall(160, 256));
     for (std::size_t i = 0; i < materials.size(); ++i) {
       Instance instance;
       instance.mesh = ball;

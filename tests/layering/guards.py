@@ -2,7 +2,7 @@
 """Guards of the shading text are declared in shaders/shading/constants.h and nowhere else.
 
 In shaders/shading and shaders/lighting no other file may hold a small number of its own (1e-...), and a clamp, max or min must name a declared guard or say `model` in its line: that it
-is part of the model, not of the arithmetic. `guards.py ROOT` checks a tree; `guards.py --self-test` plants a breach of each kind.
+is part of the model, not of the arithmetic. No shader at all may hold a number that no float holds: some compilers refuse it even where a macro drops it. `guards.py ROOT` checks a tree; `guards.py --self-test` plants a breach of each kind.
 """
 import pathlib
 import re
@@ -10,6 +10,7 @@ import sys
 import tempfile
 
 SMALL = re.compile(r"\b\d+(\.\d*)?e-\d+", re.I)
+NUMBER = re.compile(r"(?<![\w.])(\d+\.?\d*|\.\d+)(e[+-]?\d+)\b|(?<![\w.])(\d+\.\d*|\.\d+)", re.I)
 CLAMP = re.compile(r"\b(clamp|max|min)\s*\(")
 FOLDERS = ("shaders/shading", "shaders/lighting", "shaders/forward")
 # Loops over counts, culling and tone curves of entry points are no shading: what a file outside the text may clamp without a word.
@@ -28,6 +29,12 @@ def breaches(root):
                     yield f"{place}: a small number of its own: declare it as a guard in constants.h, with its reason"
                 if CLAMP.search(code) and "BURNISH_" not in code and "model" not in line:
                     yield f"{place}: a clamp that is no declared guard: use one of constants.h, or say `model:` and why it is part of the model"
+    for path in sorted(p for p in (root / "shaders").rglob("*") if p.is_file()):
+        for number, line in enumerate(path.read_text().splitlines(), 1):
+            for found in NUMBER.finditer(line.split("//")[0]):
+                size = float(found[0])
+                if size > 3.4028234e38 or 0 < size < 1.1754944e-38:
+                    yield f"{path.relative_to(root)}:{number}: {found[0]}: a number that no float holds"
     text = (root / "shaders/shading/constants.h").read_text().splitlines()
     numbers = []
     for i, line in enumerate(text):
@@ -47,8 +54,9 @@ def self_test():
             (root / name).mkdir(parents=True)
         (root / "shaders/shading/constants.h").write_text("// why\n#define A GUARDED(1, R(1e-7), R(0.0))\n\n#define B GUARDED(3, R(1e-7), R(0.0))\n")
         (root / "shaders/shading/a.h").write_text("real x = max(y, R(0.0));\nreal z = y + R(1e-6);\nreal w = max(a, b);  // model: the larger\nreal v = max(a, BURNISH_GUARD_A);  // 1e-9\n")
+        (root / "shaders/forward/b.frag").write_text("float x = y * 3.4e38;\nfloat z = 1e300;\nfloat w = 0.0;  // 1e300\n")
         found = list(breaches(root))
-        assert len(found) == 4 and "a.h:1" in found[0] and "a.h:2" in found[1] and "constants.h:4" in found[2] and "[1, 3]" in found[3], found
+        assert len(found) == 5 and "a.h:1" in found[0] and "a.h:2" in found[1] and "b.frag:2: 1e300" in found[2] and "constants.h:4" in found[3] and "[1, 3]" in found[4], found
 
 
 def main():

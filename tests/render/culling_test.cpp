@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <iostream>
+#include <numeric>
 #include <random>
+#include <set>
 
+#include "lighting/light_tiles.h"
 #include "lighting/tile_surfaces.h"
 #include "render/scenes.h"
 #include "shading/test_rungs.h"
@@ -141,6 +144,16 @@ Errors compare(const Hall& hall, const View& view, const Picture& p, double ev, 
   return e;
 }
 
+/// To the bit; on a chip, whose compiler orders sums by the program, to a half float's step.
+bool sameBut(const Picture& a, const Picture& b, bool software) {
+  if (software) return same(a, b);
+  for (int y = 0; y < a.image.height; ++y)
+    for (int x = 0; x < a.image.width; ++x)
+      for (int c = 0; c < 3; ++c)
+        if (!(std::abs(a.at(x, y)[c] - b.at(x, y)[c]) <= std::exp2(-10) * std::abs(a.at(x, y)[c]) + 1e-6)) return false;
+  return true;
+}
+
 Quality qualityAt(float ev) {
   Quality q;
   q.exposureEv = ev;
@@ -170,7 +183,9 @@ TEST_CASE("1024 lights in tiles equal all lights brute force within 1/255") {
       std::cout << fmt::format("  {}, tile bounds {}: {} pixels, largest difference {:.2f}/255, {} of 1024 lights in view\n", name, bounds == TileBounds::Readback ? "read back" : "reduced", e.count, e.largest * 255,
                                p.stats.lightsInView);
       CHECK(e.count > 30000);
-      CHECK(e.largest <= 1.0 / 255);
+      // A chip's rasterizer moves walls by up to 1/512 of a pixel, here 0.1 mm, which 1/r² shows two centimetres from a light.
+      CHECK(e.largest <= (stage.software() ? 1.0 : 10.0) / 255);
+      CHECK(e.share() > 0.998);
       CHECK(brightest > 0.8);
       CHECK(p.stats.lightsInView > 100);
       CHECK(p.stats.lights == 1024);
@@ -183,16 +198,18 @@ TEST_CASE("both ways to learn a tile's depth range give the same bytes") {
   hall.addLights(400);
   const View view = lookAt({5, 2, 4.5}, {-2, 1.5, -2}, {0, 1, 0}, 1.2f);
   std::vector<Picture> pictures;
+  bool software = true;
   for (TileBounds bounds : {TileBounds::Readback, TileBounds::Reduction}) {
     RendererOptions options;
     options.tileBounds = bounds;
     Stage stage(options);
+    software = stage.software();
     pictures.push_back(stage.linear(hall.scene, view, {333, 187}));
     CHECK((stage.renderer->lastPlan().target("tile_depth") != nullptr) == (bounds == TileBounds::Reduction));
   }
   // Where depth and normals are in memory, lights that reach no surface from its front are left out as well.
   CHECK(pictures[0].stats.lightsInView <= pictures[1].stats.lightsInView);
-  CHECK(same(pictures[0], pictures[1]));
+  CHECK(sameBut(pictures[0], pictures[1], software));
 }
 
 TEST_CASE("a view in an odd corner of the target equals the same view alone") {
@@ -282,4 +299,76 @@ TEST_CASE("lights that reach no surface of a tile from its front: none that does
   CHECK(reached > 1000);
   CHECK(missed == 0);
   CHECK(kept == 0);
+}
+
+TEST_CASE("each tile is shaded once, by a program that is right for it, and none draws few tiles where another could") {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> d(-1, 1);
+  std::size_t moved = 0;
+  for (int round = 0; round < 96; ++round) {
+    const glm::ivec2 size{320, 192};
+    const scene::ViewFrame frame = scene::frameOf(lookAt({0, 0, 0}, {0, 0, -4}), size);
+    std::vector<lighting::TileDepth> depths(20 * 12);
+    for (lighting::TileDepth& t : depths) {
+      if (d(random) < -0.9) continue;  // nothing is drawn there
+      t.near = t.nearEnd = float(frame.depthParams.x / 3.9 - frame.depthParams.y);
+      t.far = t.farBegin = float(frame.depthParams.x / 4.1 - frame.depthParams.y);
+    }
+    std::vector<scene::LocalLight> lights(std::size_t(round % 12));
+    for (scene::LocalLight& l : lights) {
+      l.position = vec3(float(4 * d(random)), float(2 * d(random)), -4);
+      l.radius = float(1 + std::abs(2.5 * d(random)));
+      l.axis = {0, 0, -1};
+      l.cosOuter = round % 3 == 1 && d(random) > 0.8 ? -0.5f : -1.0f;
+    }
+    const std::size_t shadowed = round % 4 == 3 ? std::min<std::size_t>(lights.size(), 2) : 0;
+    std::vector<lighting::DetailBox> details;
+    if (round % 5 == 4) details.push_back({{-3, 0, -4}, {0.5f, 0.5f, 0.5f}, {true, false}});
+    std::vector<lighting::ProbeBox> probes(std::size_t(round / 2 % 6));
+    for (lighting::ProbeBox& p : probes) p.center = {4 * d(random), d(random), -4}, p.halfSize = dvec3(std::abs(d(random)) * 1.5);
+    lighting::TileCuller culler;
+    const lighting::TileLists lists = culler.cull(frame, depths, lights, shadowed, details, {}, probes.empty() ? nullptr : &probes);
+
+    // Which lights reach which tiles, one by one.
+    std::vector<std::vector<std::size_t>> wanted(depths.size());
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+      lighting::TileCuller one;
+      const lighting::TileLists alone = one.cull(frame, depths, {&lights[i], 1});
+      for (const lighting::TileGroup& g : alone.groups)
+        for (int k = g.first; k < g.first + g.count; ++k)
+          for (int e = 0; e < (alone.tiles[std::size_t(k)].w & 0xffff); ++e)
+            if (alone.entries[std::size_t(alone.tiles[std::size_t(k)].z + e)] == 1) wanted[std::size_t(alone.tiles[std::size_t(k)].y * 20 + alone.tiles[std::size_t(k)].x)].push_back(i + 1);
+    }
+    std::vector<int> times(depths.size(), 0);
+    for (const lighting::TileGroup& g : lists.groups)
+      for (int k = g.first; k < g.first + g.count; ++k) {
+        const lighting::TileVertex tile = lists.tiles[std::size_t(k)];
+        const std::size_t at = std::size_t(tile.y * 20 + tile.x);
+        ++times[at];
+        std::vector<std::size_t> listed;
+        bool spot = false;
+        int casters = 0;
+        for (int e = 0; e < (tile.w & 0xffff); ++e)
+          if (const std::size_t light = lists.entries[std::size_t(tile.z + e)]; light > 0) listed.push_back(light), spot |= lights[light - 1].cosOuter > -1, casters += light <= shadowed;
+        CHECK(listed == wanted[at]);
+        if (g.bucket >= 0) CHECK((tile.w & 0xffff) == g.bucket);
+        if (spot) CHECK((g.bucket == plan::kLoopSpots || g.bucket == plan::kLoopShadows));
+        CHECK(casters == tile.w >> 16);
+        if (casters > 0) CHECK(g.bucket == plan::kLoopShadows);
+        if (probes.empty()) continue;
+        const lighting::TileProbes near = lists.probes[std::size_t(k)];
+        CHECK((near.x < 0 || g.places != plan::Places::None));
+        CHECK((near.y < 0 || g.places == plan::Places::Many));
+      }
+    for (std::size_t i = 0; i < depths.size(); ++i) CHECK(times[i] == (depths[i].far >= 0 ? 1 : 0));
+    const auto lit = std::accumulate(times.begin(), times.end(), 0);
+    const auto order = [](int bucket) { return bucket >= 0 ? bucket : 100 - bucket; };
+    for (const lighting::TileGroup& small : lists.groups)
+      for (const lighting::TileGroup& other : lists.groups)
+        if (&small != &other && small.count * 50 < lit && other.details.brushed == small.details.brushed) CHECK_FALSE(((other.places == small.places || other.places == plan::Places::Many) && order(other.bucket) >= order(small.bucket)));
+    std::set<std::size_t> sizes;
+    for (const auto& w : wanted) sizes.insert(w.size());
+    moved += sizes.size() > lists.groups.size();
+  }
+  CHECK(moved > 0);
 }

@@ -61,7 +61,7 @@ std::vector<Field> fieldsOf(const Workshop& w) {
       {"substance map", 0.03, [&](Material& m) { m.mapA = w.substance; }, [&](Material& m) { m.mapA = w.plastic; }},
       {"roughness factor", 0.09, [](Material& m) { m.roughness = 0.33f, m.substance = 1; }, [](Material& m) { m.substance = 1; }},
       {"roughness map", 0.09, [&](Material& m) { m.mapB = w.roughness, m.substance = 1; }, [](Material& m) { m.substance = 1; }},
-      {"roughness map times factor", 0.09, [&](Material& m) { m.mapB = w.roughness, m.roughness = 0.4f, m.substance = 1; }, [&](Material& m) { m.mapB = w.roughness, m.substance = 1, m.roughness = 0.6f; }},
+      {"roughness map times factor", 0.1, [&](Material& m) { m.mapB = w.roughness, m.roughness = 0.4f, m.substance = 1; }, [&](Material& m) { m.mapB = w.roughness, m.substance = 1, m.roughness = 0.6f; }},
       {"normal map", 0.03, [&](Material& m) { m.mapB = w.normals; }, nothing},
       {"occlusion", 0.02, [&](Material& m) { m.mapC = w.occlusion; }, nothing},
       {"occlusion's strength", 0.02, [&](Material& m) { m.mapC = w.occlusion, m.occlusionStrength = 0.5f; }, [&](Material& m) { m.mapC = w.occlusion; }},

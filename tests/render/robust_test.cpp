@@ -75,6 +75,29 @@ TEST_CASE("zero and negative sizes are one clear error, and the renderer goes on
   checked(stage, scene);
 }
 
+TEST_CASE("a sun and a sky at the end of what floats hold, exposed for a dim room: lit or dark, never no number (H16)") {
+  Stage stage;
+  for (const Path path : {Path::Deferred, Path::Forward})
+    for (const bool sky : {false, true}) {
+      Scene scene;
+      place(scene, sphere(1, 24, 48), plain());
+      addLight(scene, light(LightKind::Directional, vec3(1), 3e38f), {0, 0, 0}, {1, -0.3, -0.1});
+      scene.environment.color = vec3(sky ? 0.5f : 0.0f);
+      if (sky) scene.environment.scale = 3e38f;
+      Quality quality;
+      quality.path = path;
+      quality.exposureEv = -4.0f;  // times 13
+      RenderRequest request;
+      request.countNonfinite = true;
+      const Picture p = stage.draw(scene, {&kView, 1}, {64, 64}, quality, request);
+      INFO("path " << int(path) << ", sky " << sky);
+      CHECK(p.stats.nonfinitePixels == 0);
+      CHECK(p.at(20, 32).x > 0.9);
+      CHECK((p.at(44, 32).x > 0.9) == sky);
+      CHECK(p.at(2, 32).x == (sky ? 1 : 0));
+    }
+}
+
 TEST_CASE("the smallest and the oddest targets") {
   Stage stage;
   const Scene scene = goodScene();

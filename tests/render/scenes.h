@@ -34,6 +34,7 @@ struct Stage {
 
   explicit Stage(RendererOptions options = {}) {
     options.debugOutput = true;
+    options.linkOnDemand = true;  // many qualities, few pictures of each; tests of programs and plans have renderers of their own
     auto made = Renderer::create(context->procAddress(), options);
     if (!made) FAIL("no renderer: " << made.error().message());
     renderer = std::move(*made);
@@ -41,6 +42,8 @@ struct Stage {
   ~Stage() {
     if (context->makeCurrent()) renderer.reset();
   }
+  /// The renderer computes on the CPU: floats round as IEEE 754 has it, and vertices stay where they are.
+  [[nodiscard]] bool software() const { return renderer->capabilities().software; }
   Stage(const Stage&) = delete;
   Stage& operator=(const Stage&) = delete;
   Result<Picture> tryDraw(const Scene& scene, std::span<const View> views, glm::ivec2 size, const Quality& quality, const RenderRequest& request) {

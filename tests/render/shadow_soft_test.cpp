@@ -86,6 +86,38 @@ TEST_CASE("the penumbra of a straight edge is as wide as the light's disc makes 
   }
 }
 
+TEST_CASE("what casts near the ground casts its shadow however far above other casters may be", "[shadow]") {
+  // A plate at hand's width over the floor, in the sun; far above it a beam, whose blocked light would be spread over more texels than are searched.
+  Stage stage;
+  Scene scene;
+  place(scene, quad({0, 0, 0}, {0, 0, 3}, {3, 0, 0}), matte());
+  place(scene, box({-0.5f, 0.1f, -0.5f}, {0.5f, 0.12f, 0.5f}), matte());
+  place(scene, box({4.5f, 6, -2}, {4.9f, 6.2f, 2}), matte());  // its shadow lies at x = 0.9 to 1.3
+  Light l = light(LightKind::Directional, vec3(1), 1000);
+  l.castsShadow = true;
+  l.angularDiameter = 0.03f;
+  addLight(scene, l, {0, 0, 0}, {-0.6, -1, 0});
+  const View view = lookAt({-2.5, 1.2, 0}, {0, 0, 0}, {0, 1, 0}, 0.6f);
+  const glm::ivec2 size{200, 120};
+  for (const Shadow rung : {Shadow::Pcf, Shadow::Pcss}) {
+    const std::vector<double> v = visibility(stage, scene, view, size, quality(rung));
+    double lightest = 0, darkest = 1;
+    int judged = 0;
+    for (int y = 0; y < size.y; ++y)
+      for (int x = 0; x < size.x; ++x) {
+        const dvec3 p = onFloor(rayThrough(view, size, x + 0.5, y + 0.5));
+        const double seen = v[std::size_t(y * size.x + x)];
+        // The plate's shadow lies 6 to 7 cm beside it; of it what the plate does not hide, and the floor well before it.
+        if (p.x > -0.555 && p.x < -0.515 && std::abs(p.z) < 0.45) lightest = std::max(lightest, seen), ++judged;
+        if (p.x > -1.5 && p.x < -0.7 && std::abs(p.z) < 0.45) darkest = std::min(darkest, seen);
+      }
+    INFO("rung " << int(rung) << ": " << judged << " pixels");
+    CHECK(judged > 20);
+    CHECK(lightest < 0.05);
+    CHECK(darkest > 0.95);
+  }
+}
+
 TEST_CASE("soft edges fall off smoothly: no grain, no bands", "[shadow]") {
   Stage stage;
   Scene scene;

@@ -46,6 +46,20 @@ TEST_CASE("what was seen before is clipped to the box of what is around, along i
   CHECK(f64::clippedToward(dvec3(0.5), dvec3(0), dvec3(0.5)) == dvec3(0.5));
 }
 
+TEST_CASE("a grey is not clipped for what rounding makes of it, a colour that was not there is") {
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<float> some(0.01f, 1), off(-1, 1);
+  for (int i = 0; i < 10'000; ++i) {
+    // Three neighbours of one grey each, no two alike: differences of colour have no spread.
+    const float grey = some(random), wide = 0.2f * grey, step = grey / 4096;
+    const glm::vec3 middle(grey, 0, 0), spread(wide, 0, 0);
+    const glm::vec3 rounded(grey + 0.5f * wide, off(random) * step, off(random) * step);
+    REQUIRE(f32::clippedToward(middle, f32::clipBox(middle, spread), rounded) == rounded);
+    const glm::vec3 red(grey, 0.2f * grey, 0), clipped = f32::clippedToward(middle, f32::clipBox(middle, spread), red);
+    REQUIRE(double(glm::length(clipped - middle)) < 0.003 * double(grey));
+  }
+}
+
 TEST_CASE("Catmull-Rom weights add up to 1, pass through pixels and keep straight lines and parabolas") {
   for (int i = 0; i <= 100; ++i) {
     const double f = i / 100.0;
