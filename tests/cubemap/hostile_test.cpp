@@ -1,5 +1,5 @@
 // Damaged and malicious cubemap files: an error or a sound cubemap, never anything else.
-#include <chrono>
+#include <ctime>
 #include <random>
 
 #include "cube_fixture.h"
@@ -73,7 +73,7 @@ TEST_CASE("Every byte changed, and many at random, give an error or a sound cube
 
 TEST_CASE("Giant sizes cost nothing", "[cubemap][hostile]") {
   const bool dds = GENERATE(true, false);
-  const auto begin = std::chrono::steady_clock::now();
+  const std::clock_t begin = std::clock();
   for (const std::uint32_t size : {8192u, 16384u, 65536u, 0x3fffffffu, 0x7fffffffu, 0x80000000u, 0xffffffffu})
     for (const std::uint32_t levels : {1u, 14u, 31u, 32u, 0x7fffffffu, 0xffffffffu}) {
       std::vector<std::byte> file = sample(dds);
@@ -82,7 +82,7 @@ TEST_CASE("Giant sizes cost nothing", "[cubemap][hostile]") {
       REQUIRE_FALSE(read);
       REQUIRE(sound(read));
     }
-  CHECK(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() < 0.5);
+  CHECK(double(std::clock() - begin) / CLOCKS_PER_SEC < 0.5);
 }
 
 TEST_CASE("Lengths and offsets near the end of 32 and 64 bits do not wrap", "[cubemap][hostile]") {

@@ -124,7 +124,7 @@ TEST_CASE("A pool starts nothing before it is needed, reuses what it started, an
     CHECK(watch.worker().pid == first);
     CHECK(watch.all().size() == 2);
   }
-  CHECK(within(std::chrono::seconds(5), [&] { return watch.all().empty(); }));
+  CHECK(within(std::chrono::seconds(30), [&] { return watch.all().empty(); }));
 }
 
 TEST_CASE("A worker killed in the middle of a picture costs one error; the next picture decodes", "[decode][pool]") {
@@ -158,7 +158,7 @@ TEST_CASE("A worker or keeper killed while idle is replaced without an error", "
     const Process worker = watch.worker();
     ::kill(i % 2 == 0 ? worker.pid : worker.parent, SIGKILL);  // a keeper's workers follow it
     REQUIRE(
-        within(std::chrono::seconds(5), [&] { return !exists(worker.pid) && (i % 2 == 0 || !exists(worker.parent)); }));
+        within(std::chrono::seconds(30), [&] { return !exists(worker.pid) && (i % 2 == 0 || !exists(worker.parent)); }));
   }
   CHECK(pool->decode(smallPicture(), "last"));
 }
@@ -177,7 +177,7 @@ TEST_CASE("A picture that takes too long is given up in time; the next one decod
   REQUIRE_FALSE(answer);
   CHECK(answer.error().message().find("0.2 s") != std::string::npos);
   CHECK(seconds > 0.19);
-  CHECK(seconds < 2);
+  CHECK(seconds < 10);
   CHECK_FALSE(exists(worker));
   CHECK(pool->decode(smallPicture(), "next"));
 }
@@ -256,7 +256,7 @@ TEST_CASE("Helpers end with a program that is killed", "[decode][pool]") {
   ::kill(child, SIGKILL);
   ::waitpid(child, nullptr, 0);
   CHECK(helpers.size() == 2);
-  CHECK(within(std::chrono::seconds(5), [&] {
+  CHECK(within(std::chrono::seconds(30), [&] {
     return std::none_of(helpers.begin(), helpers.end(), [](const Process& p) { return exists(p.pid); });
   }));
   ::close(ends[0]);

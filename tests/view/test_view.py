@@ -218,6 +218,19 @@ class Live(View):
             time.sleep(0.1)
         self.fail("F12 saved nothing")
 
+    def soon(self, holds):
+        """Tries until this holds: a machine with other work may take seconds for what was asked before."""
+        deadline = time.monotonic() + PATIENCE
+        while True:
+            try:
+                return holds()
+            except AssertionError:
+                if time.monotonic() > deadline:
+                    raise
+
+    def assertShows(self, window, expected):
+        self.soon(lambda: self.assertSame(self.saved(window), expected))
+
     def ended(self, program, code):
         self.assertEqual(program.wait(timeout=PATIENCE), code)
         self.assertEqual(without_progress(program.stderr.read()), "")
@@ -226,21 +239,21 @@ class Live(View):
         program, window = self.start(*FIXED)
         eye, forward = self.eye(program, window)
         numpy.testing.assert_allclose(eye, [0, 0.5, 5], atol=1e-4)
-        self.x.key(window, "w", 0.4)
+        self.x.press(window, "w")
+        self.soon(lambda: self.assertGreater((self.eye(program, window)[0] - eye) @ forward, 0.05))
+        self.x.release(window, "w")
         moved, direction = self.eye(program, window)
         way = moved - eye
-        self.assertGreater(way @ forward, 0.05)
         numpy.testing.assert_allclose(way / numpy.linalg.norm(way), forward, atol=1e-3)
         numpy.testing.assert_allclose(direction, forward, atol=1e-3)
         self.x.key(window, "2")
         numpy.testing.assert_allclose(self.eye(program, window)[0], [1, 2, 8], atol=1e-4)
         self.x.drag(window, (100, 150), (160, 150), button=3)
-        turned = self.eye(program, window)[1]
-        self.assertGreater(turned[0], 0.05)  # the mouse went right
-        self.assertAlmostEqual(turned[1], 0, delta=1e-3)
+        self.soon(lambda: self.assertGreater(self.eye(program, window)[1][0], 0.05))  # the mouse went right
+        self.assertAlmostEqual(self.eye(program, window)[1][1], 0, delta=1e-3)
         self.x.key(window, "1")
         self.x.key(window, "Tab")
-        self.assertSame(self.saved(window), self.render(*FIXED, size=SIZE))
+        self.assertShows(window, self.render(*FIXED, size=SIZE))
         self.x.delete(window)
         self.ended(program, 0)
 
@@ -254,10 +267,13 @@ class Live(View):
     def test_the_line_between_a_and_b_moves(self):
         program, window = self.start("--split", Comparison.RUNG, *FIXED)
         self.x.drag(window, (160, 100), (80, 100))
-        picture = self.saved(window)
         a, b = self.render(*FIXED), self.render(*FIXED, "--set", Comparison.RUNG)
-        self.assertSame(picture[:, :78], a[:, :78])
-        self.assertSame(picture[:, 82:], b[:, 82:])
+
+        def moved():
+            picture = self.saved(window)
+            self.assertSame(picture[:, :78], a[:, :78])
+            self.assertSame(picture[:, 82:], b[:, 82:])
+        self.soon(moved)
         program.send_signal(signal.SIGINT)
         self.ended(program, -signal.SIGINT)
 
@@ -272,15 +288,14 @@ class Live(View):
         while not file.exists():
             self.assertLess(time.monotonic(), deadline, "Ctrl S saved nothing")
             time.sleep(0.1)
-        self.assertSame(self.saved(window), self.render(*rungs, *FIXED, size=SIZE))
+        self.assertShows(window, self.render(*rungs, *FIXED, size=SIZE))
         self.assertSame(self.render("--quality", "./quality.json", *FIXED, size=SIZE), self.render(*rungs, *FIXED, size=SIZE))
         # Another one is taken up, one that is none is not.
         other = json.loads(file.read_text())
         other["terms"]["fresnel"], other["terms"]["diffuse"] = "schlick", "coupled-fit"
         file.write_text(json.dumps(other))
         self.x.control(window, "o")
-        time.sleep(0.5)
-        self.assertSame(self.saved(window), self.render(*FIXED, size=SIZE))
+        self.assertShows(window, self.render(*FIXED, size=SIZE))
         file.write_text("{}")
         self.x.control(window, "o")
         time.sleep(0.5)
@@ -295,12 +310,9 @@ class Live(View):
         lit, unlit = self.render("--probes", "probes", *FIXED, size=SIZE), self.render(*FIXED, size=SIZE)
         self.assertDifferent(lit, unlit)
         self.assertSame(self.saved(window), lit)
-        self.x.key(window, "l")
-        time.sleep(0.5)
-        self.assertSame(self.saved(window), unlit)
-        self.x.key(window, "l")
-        time.sleep(0.5)
-        self.assertSame(self.saved(window), lit)
+        for picture in unlit, lit:
+            self.x.key(window, "l")
+            self.assertShows(window, picture)
         self.x.delete(window)
         self.ended(program, 0)
 
@@ -310,7 +322,7 @@ class Live(View):
         def cpu():
             fields = pathlib.Path(f"/proc/{program.pid}/stat").read_text().rsplit(")", 1)[1].split()
             return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
-        deadline = time.monotonic() + 20
+        deadline = time.monotonic() + PATIENCE
         while True:  # until the picture is drawn and timed
             before = cpu()
             time.sleep(1)
@@ -318,7 +330,7 @@ class Live(View):
                 break
             self.assertLess(time.monotonic(), deadline, "it never rests")
         self.x.key(window, "v")  # and wakes up again
-        self.assertGreater(cpu() - before, 0.02)
+        self.soon(lambda: self.assertGreater(cpu() - before, 0.02))
         self.x.delete(window)
         self.ended(program, 0)
 
@@ -329,7 +341,7 @@ class Live(View):
         time.sleep(0.7)
         self.x.key(window, "space", 0.05)
         time.sleep(0.5)
-        self.assertDifferent(self.saved(window), still)
+        self.soon(lambda: self.assertDifferent(self.saved(window), still))
         self.x.delete(window)
         self.ended(program, 0)
 

@@ -50,7 +50,7 @@ class Display:
             self.x.XFree(children)
         return found
 
-    def find(self, title, seconds=20):
+    def find(self, title, seconds=60):
         """The window whose title starts with this, once it is there and visible."""
         ends = time.monotonic() + seconds
         while time.monotonic() < ends:
@@ -61,7 +61,7 @@ class Display:
             time.sleep(0.05)
         raise RuntimeError(f"no window '{title}' after {seconds} s")
 
-    def focus(self, window, seconds=10):
+    def focus(self, window, seconds=60):
         """Gives it the keyboard, once it is on the screen: until then the server refuses."""
         ends = time.monotonic() + seconds
         focus, revert = ctypes.c_ulong(), ctypes.c_int()
@@ -93,10 +93,16 @@ class Display:
 
     def key(self, window, name, seconds=0.08):
         """Presses a key (an X keysym's name) for a while."""
-        self._send(window, KEY_PRESS, self._code(name))
+        self.press(window, name)
         time.sleep(seconds)
-        self._send(window, KEY_RELEASE, self._code(name))
+        self.release(window, name)
         time.sleep(0.08)
+
+    def press(self, window, name):
+        self._send(window, KEY_PRESS, self._code(name))
+
+    def release(self, window, name):
+        self._send(window, KEY_RELEASE, self._code(name))
 
     def point(self, window, x, y):
         self.x.XWarpPointer(self.display, ctypes.c_ulong(0), ctypes.c_ulong(window), 0, 0, 0, 0, int(x), int(y))
