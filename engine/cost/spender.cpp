@@ -9,7 +9,7 @@ namespace burnish::cost {
 namespace {
 
 constexpr int kRounds = 3, kVerifyRounds = 11;
-constexpr std::size_t kBatch = 6, kStarts = 4, kVerified = 4, kNeighbours = 24, kTogether = 6;
+constexpr std::size_t kBatch = 6, kStarts = 4, kVerified = 4, kHeardAgain = 3, kNeighbours = 24, kTogether = 6;
 constexpr std::array kSlack{0.0, 0.02, 0.0, 0.05, 0.0, 0.1};  ///< how much more than the goal is looked at after so many batches without a better one, for models err; after the last the search ends
 constexpr double kClearly = 2e-3;  ///< an error is lower where it is so by this share, and by the noise of ground truth
 constexpr double kWorthTiming = 1.25;  ///< of the best error so far: what misses more is not timed
@@ -196,6 +196,29 @@ Result<void> Spender::verify(const Instrument& fresh, const std::vector<Goal>& g
     if (!ratios) return fail(ratios.error());
     for (std::size_t i = 0; i < choices.size(); ++i) samples_.time(choices[i], (*ratios)[i]), verified_.insert(choices[i]);
   }
+  for (int turn = 0; turn < 2; ++turn)
+    if (auto done = hearAgain(fresh, goals); !done) return done;
+  return {};
+}
+
+/// What is more exact than the winner and may fit, if its spread is believed: times are disturbed in both directions.
+Result<void> Spender::hearAgain(const Instrument& fresh, const std::vector<Goal>& goals) {
+  std::vector<Choice> choices;
+  for (const Goal& goal : goals) {
+    const Sample* leader = best(goal);
+    if (goal.ratio == 0 || !leader) continue;
+    std::vector<const Sample*> doubtful;
+    for (const Sample& s : samples_.all())
+      if (s.pictured && s.ratio.count > 0 && s.ratio.low <= goal.ratio && !fits(goal, s) && (!fits(goal, *leader) || clearlyLower(s.error, leader->error))) doubtful.push_back(&s);
+    std::sort(doubtful.begin(), doubtful.end(), [](const Sample* a, const Sample* b) { return a->error.rms < b->error.rms; });
+    if (doubtful.size() > kHeardAgain) doubtful.resize(kHeardAgain);
+    for (const Sample* s : doubtful)
+      if (std::find(choices.begin(), choices.end(), s->choice) == choices.end()) choices.push_back(s->choice);
+  }
+  if (choices.empty()) return {};
+  const auto ratios = fresh.time(choices, kVerifyRounds);
+  if (!ratios) return fail(ratios.error());
+  for (std::size_t i = 0; i < choices.size(); ++i) samples_.time(choices[i], (*ratios)[i]), verified_.insert(choices[i]);
   return {};
 }
 

@@ -24,7 +24,7 @@ class Spender {
   Result<void> begin(const CostReport& cost, const std::vector<Goal>& goals, double until);
   /// Measures combinations until none is promised to be better, or the share of the clock's time is used up.
   Result<void> search(const Goal& goal, double until);
-  /// Times again what is best for each goal, with an instrument whose programs and buffers are made anew; Samples then have these times. A quality that fits by chance is found out here.
+  /// Times again what is best for each goal, with an instrument whose programs and buffers are made anew; Samples then have these times. A quality that fits by chance is found out here, and one that failed by chance.
   Result<void> verify(const Instrument& fresh, const std::vector<Goal>& goals);
 
   [[nodiscard]] const Samples& samples() const { return samples_; }
@@ -37,6 +37,7 @@ class Spender {
 
  private:
   Result<void> measure(const std::vector<Choice>& choices, const Goal& goal);
+  Result<void> hearAgain(const Instrument& fresh, const std::vector<Goal>& goals);
   Result<void> prepare(const std::vector<Choice>& choices);
   Result<void> picture(const Choice& choice);
   Result<bool> batch(const Goal& goal, const Goal& wanted);
