@@ -39,6 +39,8 @@ struct Bench::Impl {
     std::map<std::string, double> passes;
     bool settled = false;  ///< nothing was made, uploaded or kept out that the next frame of this quality would not have either
   };
+  Result<Frame> drawOnce(const Quality& quality);
+  /// The medians of a few frames where they are short.
   Result<Frame> draw(const Quality& quality);
   /// Draws until a frame is settled, three times at most; also again where it took more than thrice the least so far: the driver had dropped a program's code and made it anew. `least` is brought up
   /// to date.

@@ -6,8 +6,9 @@
 namespace burnish::cost {
 namespace {
 
-/// Frames of a GPU behind one value.
-constexpr int kGpuFrames = 7;
+/// Frames behind one value, which is their median: as many on a GPU, in software until they took this many milliseconds.
+constexpr std::size_t kFrames = 7;
+constexpr double kLongEnough = 20;
 
 /// What one quality gave so far.
 struct Series {
@@ -27,7 +28,7 @@ double medianOf(std::vector<double> values) { return spreadOf(std::move(values))
 
 }  // namespace
 
-Result<Bench::Impl::Frame> Bench::Impl::draw(const Quality& quality) {
+Result<Bench::Impl::Frame> Bench::Impl::drawOnce(const Quality& quality) {
   const bool software = renderer->capabilities().software;
   RenderRequest request;
   request.timing = software ? TimingMode::Profile : TimingMode::Async;
@@ -37,24 +38,36 @@ Result<Bench::Impl::Frame> Bench::Impl::draw(const Quality& quality) {
   const FramePlan& plan = renderer->lastPlan();
   frame.settled = stats->shadowMapsDrawn == 0 && stats->pendingUploads == 0 && plan.targets == targets;
   targets = plan.targets;
-  if (software) {
-    for (const PassTime& pass : stats->passes) frame.passes[pass.name] += pass.cpuMs, frame.total += pass.cpuMs;
-    return frame;
+  for (const PassTime& pass : stats->passes) {
+    const double ms = software ? pass.cpuMs : pass.gpuMs;
+    frame.passes[pass.name] += ms, frame.total += ms;
   }
-  // A GPU's own clock tells of a frame once that is done: the next frame brings the times of this one. Its passes wait for the driver's threads now and then, by more than they take
-  // themselves, which frames of a few milliseconds can be repeated for.
+  return frame;
+}
+
+Result<Bench::Impl::Frame> Bench::Impl::draw(const Quality& quality) {
+  const bool software = renderer->capabilities().software;
+  auto first = drawOnce(quality);
+  if (!first || (software && (!first->settled || first->total >= kLongEnough))) return first;
+  // Short frames are disturbed by more than they take: those of a GPU wait for the driver's threads now and then, those of a processor for whoever shares its cores.
+  std::vector<Frame> frames;
+  if (software) frames.push_back(*first);  // a GPU's own clock tells of a frame once that is done: the next frame brings the times of this one
+  double sum = first->total;
+  while (frames.size() < kFrames && (!software || sum < kLongEnough)) {
+    finish();
+    auto frame = drawOnce(quality);
+    if (!frame) return frame;
+    sum += frame->total;
+    frames.push_back(std::move(*frame));
+  }
   std::map<std::string, std::vector<double>> passes;
   std::vector<double> totals;
-  for (int i = 0; i < kGpuFrames; ++i) {
-    finish();
-    stats = renderer->render(scene, {&view, 1}, display->target(), quality, request);
-    if (!stats) return fail(stats.error());
-    std::map<std::string, double> one;
-    double total = 0;
-    for (const PassTime& pass : stats->passes) one[pass.name] += pass.gpuMs, total += pass.gpuMs;
-    for (const auto& [name, ms] : one) passes[name].push_back(ms);
-    totals.push_back(total);
+  for (const Frame& frame : frames) {
+    for (const auto& [name, ms] : frame.passes) passes[name].push_back(ms);
+    totals.push_back(frame.total);
   }
+  Frame frame;
+  frame.settled = first->settled;
   for (auto& [name, ms] : passes) frame.passes[name] = medianOf(std::move(ms));
   frame.total = medianOf(std::move(totals));
   return frame;
