@@ -26,9 +26,9 @@ bool timeLeft(const Clock& clock, double until) { return !clock.stopped() && clo
 bool Spender::fits(const Goal& goal, const Sample& s) const {
   if (s.ratio.count == 0 || !s.pictured) return false;
   if (goal.ratio == 0) return s.error.rms <= goal.error;
-  // The base's ratio to itself is no figure: it is 1. What was timed but for the search is judged by its median; what was verified, by all of its spread.
+  // The base's ratio to itself is no figure: it is 1. While the search goes on, what was timed but for it is judged by its median; in the end, and what was verified, all by their whole spread.
   if (s.choice == factors_.base()) return goal.ratio >= 1;
-  return (verified_.contains(s.choice) ? s.ratio.high : s.ratio.median) <= goal.ratio;
+  return (decided_ || verified_.contains(s.choice) ? s.ratio.high : s.ratio.median) <= goal.ratio;
 }
 
 std::vector<Choice> Spender::ranked(const Goal& goal, std::size_t most) const {
@@ -196,6 +196,7 @@ Result<void> Spender::verify(const Instrument& fresh, const std::vector<Goal>& g
     if (!ratios) return fail(ratios.error());
     for (std::size_t i = 0; i < choices.size(); ++i) samples_.time(choices[i], (*ratios)[i]), verified_.insert(choices[i]);
   }
+  decided_ = true;
   for (int turn = 0; turn < 2; ++turn)
     if (auto done = hearAgain(fresh, goals); !done) return done;
   return {};
@@ -210,7 +211,8 @@ Result<void> Spender::hearAgain(const Instrument& fresh, const std::vector<Goal>
     std::vector<const Sample*> doubtful;
     for (const Sample& s : samples_.all())
       if (s.pictured && s.ratio.count > 0 && s.ratio.low <= goal.ratio && !fits(goal, s) && (!fits(goal, *leader) || clearlyLower(s.error, leader->error))) doubtful.push_back(&s);
-    std::sort(doubtful.begin(), doubtful.end(), [](const Sample* a, const Sample* b) { return a->error.rms < b->error.rms; });
+    const auto over = [&](const Sample* s) { return s->ratio.median > goal.ratio; };
+    std::sort(doubtful.begin(), doubtful.end(), [&](const Sample* a, const Sample* b) { return std::pair(over(a), a->error.rms) < std::pair(over(b), b->error.rms); });
     if (doubtful.size() > kHeardAgain) doubtful.resize(kHeardAgain);
     for (const Sample* s : doubtful)
       if (std::find(choices.begin(), choices.end(), s->choice) == choices.end()) choices.push_back(s->choice);

@@ -49,6 +49,7 @@ class Spender {
   Clock& clock_;
   Samples samples_;
   std::set<Choice> verified_;
+  bool decided_ = false;  ///< what there was to verify was verified
   std::mt19937 random_{1};
   double mostRatio_ = 0;  ///< that any goal can use
   int measured_ = 0;

@@ -327,6 +327,31 @@ TEST_CASE("What failed to fit by chance alone is heard again", "[cost][budget]")
   }
 }
 
+TEST_CASE("Nothing fits by its median alone", "[cost][budget]") {
+  const Factors factors = someFactors();
+  const Made made(factors, 2, 0);
+  const Image exact = made.exact();
+  const Against against{&exact, nullptr, {}};
+  Clock clock(0, {});
+  Instrument vague;
+  vague.picture = [&](const Choice& c) -> Result<std::pair<Image, PictureError>> {
+    Image picture = made.picture(c);
+    const PictureError error = against(picture, {});
+    return std::pair(std::move(picture), error);
+  };
+  vague.time = [&](const std::vector<Choice>& choices, int) -> Result<std::vector<Spread>> {
+    std::vector<Spread> out;
+    for (const Choice& c : choices) out.push_back({made.ratio(c), 0, made.ratio(c) + 1, 3});
+    return out;
+  };
+  const std::vector<Goal> goals{{0.85, 0}};
+  Spender spender(vague, factors, against, clock);
+  REQUIRE(spender.begin(reportOf(10), goals, 1));
+  REQUIRE(spender.search(goals[0], 1));
+  REQUIRE(spender.verify(vague, goals));
+  CHECK_FALSE(spender.fits(goals[0], *spender.best(goals[0])));
+}
+
 TEST_CASE("A stopped search says so", "[cost][budget]") {
   const Factors factors = someFactors();
   const Made made(factors, 2, 0);
