@@ -94,6 +94,15 @@ CostReport reportOf(double ms) {
   return report;
 }
 
+/// Pictures of what is made up, as an instrument gives them; both must outlive it.
+auto pictures(const Made& made, const Against& against) {
+  return [&made, &against](const Choice& c) -> Result<std::pair<Image, PictureError>> {
+    Image picture = made.picture(c);
+    const PictureError error = against(picture, {});
+    return std::pair(std::move(picture), error);
+  };
+}
+
 }  // namespace
 
 TEST_CASE("An inverse times its matrix is one", "[cost][budget]") {
@@ -185,11 +194,7 @@ TEST_CASE("The search finds the best of all choices from a few", "[cost][budget]
     std::mt19937 noise(seed);
     std::normal_distribution<double> normal(1, 0.004);
     Instrument instrument;
-    instrument.picture = [&](const Choice& c) -> Result<std::pair<Image, PictureError>> {
-      Image picture = made.picture(c);
-      const PictureError error = against(picture, {});
-      return std::pair(std::move(picture), error);
-    };
+    instrument.picture = pictures(made, against);
     instrument.time = [&](const std::vector<Choice>& choices, int rounds) -> Result<std::vector<Spread>> {
       std::vector<Spread> out;
       for (const Choice& c : choices) {
@@ -251,11 +256,7 @@ TEST_CASE("What fitted by chance alone is refused when it is timed again", "[cos
   const Against against{&exact, nullptr, {}};
   Clock clock(0, {});
   Instrument lucky, fresh;
-  lucky.picture = [&](const Choice& c) -> Result<std::pair<Image, PictureError>> {
-    Image picture = made.picture(c);
-    const PictureError error = against(picture, {});
-    return std::pair(std::move(picture), error);
-  };
+  lucky.picture = pictures(made, against);
   // One in three is timed 4 % too fast the first time.
   lucky.time = [&](const std::vector<Choice>& choices, int) -> Result<std::vector<Spread>> {
     std::vector<Spread> out;
@@ -290,11 +291,7 @@ TEST_CASE("What failed to fit by chance alone is heard again", "[cost][budget]")
   const Against against{&exact, nullptr, {}};
   Clock clock(0, {});
   Instrument slow, fresh;
-  slow.picture = [&](const Choice& c) -> Result<std::pair<Image, PictureError>> {
-    Image picture = made.picture(c);
-    const PictureError error = against(picture, {});
-    return std::pair(std::move(picture), error);
-  };
+  slow.picture = pictures(made, against);
   slow.time = [&](const std::vector<Choice>& choices, int) -> Result<std::vector<Spread>> {
     std::vector<Spread> out;
     for (const Choice& c : choices) out.push_back({made.ratio(c), made.ratio(c) * 0.99, made.ratio(c) * 1.01, 3});
@@ -334,11 +331,7 @@ TEST_CASE("Nothing fits by its median alone", "[cost][budget]") {
   const Against against{&exact, nullptr, {}};
   Clock clock(0, {});
   Instrument vague;
-  vague.picture = [&](const Choice& c) -> Result<std::pair<Image, PictureError>> {
-    Image picture = made.picture(c);
-    const PictureError error = against(picture, {});
-    return std::pair(std::move(picture), error);
-  };
+  vague.picture = pictures(made, against);
   vague.time = [&](const std::vector<Choice>& choices, int) -> Result<std::vector<Spread>> {
     std::vector<Spread> out;
     for (const Choice& c : choices) out.push_back({made.ratio(c), 0, made.ratio(c) + 1, 3});

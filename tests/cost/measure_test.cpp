@@ -95,7 +95,7 @@ TEST_CASE("measure: a repeated time lies within its stated spread, and a rung th
   Bed bed(ball());
   // The second takes 256 samples a pixel in place of one lookup.
   const std::vector<Quality> qualities{Quality{}, with("environment-specular", "sampled"), with("environment-specular", "none")};
-  // Of 12, fewer than 8 at 19 in 20 is one run in 5000. Where other programs come and go on the same cores both fail once in thirty runs, three times in a row never.
+  // Of 12, fewer than 8 at 19 in 20 is one run in 5000. Where other programs come and go on the same cores one or the other fails once in thirty runs, three times in a row never.
   Repeats r;
   int tries = 0;
   do r = repeat(*bed.bench, qualities);
